@@ -5,7 +5,7 @@
 
 namespace tessera {
 
-/// Whether a value of an enum has a name. Compilers spell a value that has none as a cast: "(Kind)7".
+/// Returns whether a value of an enum has a name. Compilers print a value without one as a cast: "(Kind)7".
 template <auto value>
 constexpr bool has_enumerator() {
     constexpr std::string_view before = "value = ";
@@ -21,12 +21,12 @@ constexpr std::size_t count_enumerators() {
         return first;
 }
 
-/// How many enumerators an enum class has that counts from 0 without gaps. It is counted by the compiler, so that
-/// a table by position cannot be forgotten when an enumerator is added: the build fails.
+/// Number of enumerators of an enum class that counts from 0 without gaps. Tables indexed by an enumerator check
+/// their size against it, so that the build fails when an enumerator lacks an entry.
 template <class Enum>
 inline constexpr std::size_t enumerator_count = count_enumerators<Enum>();
 
-/// The entry that a table by position has for a value. Only for tables that have one for each.
+/// Returns the entry of a table with one entry for each enumerator.
 template <class Enum, class T, std::size_t size>
     requires(size == enumerator_count<Enum>)
 constexpr const T& entry_of(const T (&table)[size], Enum value) {

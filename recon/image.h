@@ -1,4 +1,4 @@
-// Colours, images, rectangles of pixels, and what a gradient-domain method measures: what every room speaks of.
+// Colours, images, rectangles of pixels, and the means that a gradient-domain method measures.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline float luminance(Rgb c) {
     return 0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b;
 }
 
-/// |c|: luminance, whatever the signs.
+/// Returns |c|, the luminance of the channels' absolute values.
 inline float size_of(Rgb c) {
     return luminance({std::abs(c.r), std::abs(c.g), std::abs(c.b)});
 }
@@ -37,15 +37,15 @@ inline bool is_black(Rgb c) {
     return c.r <= 0 && c.g <= 0 && c.b <= 0;
 }
 
-/// Takes the CIE's X, Y and Z of 1931 to linear sRGB [IEC 61966-2-1]; colours outside have negative components.
+/// Converts CIE 1931 XYZ to linear sRGB [IEC 61966-2-1]. Colours outside the gamut have negative components.
 inline Rgb rgb_of_xyz(glm::vec3 xyz) {
     const glm::mat3 columns(3.240970f, -0.969244f, 0.055630f, -1.537383f, 1.875968f, -0.203977f, -0.498611f,
                             0.041555f, 1.056972f);
     return columns * xyz;
 }
 
-/// The CIE's matching functions of 1931, at a wavelength in nm: x, y and z, to about 1 % [Wyman, Sloan and Shirley
-/// 2013, eq. 4 and table 1].
+/// Returns the CIE 1931 colour matching functions x, y and z at a wavelength in nm, to about 1 % [Wyman, Sloan and
+/// Shirley 2013, eq. 4 and table 1].
 inline glm::vec3 color_matching(float nm) {
     const auto bell = [nm](float center, float width_below, float width_above) {
         const float t = (nm - center) / (nm < center ? width_below : width_above);
@@ -57,17 +57,17 @@ inline glm::vec3 color_matching(float nm) {
             1.217f * bell(437.0f, 11.8f, 36.0f) + 0.681f * bell(459.0f, 26.0f, 13.8f)};
 }
 
-/// The transfer function of sRGB [IEC 61966-2-1], from code 0 to 1 to linear.
+/// Converts an sRGB code in [0, 1] to linear [IEC 61966-2-1].
 inline float srgb_to_linear(float code) {
     return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
-/// And back, from linear to code.
+/// Converts linear to an sRGB code.
 inline float linear_to_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-/// Memory of pixels that need not be filled before something is written there.
+/// Allocator that leaves default-constructed pixels uninitialised.
 template <class Pixel>
 struct PixelAllocator : std::allocator<Pixel> {
     template <class Other>
@@ -82,18 +82,18 @@ struct PixelAllocator : std::allocator<Pixel> {
     template <class Any, class... Arguments>
     void construct(Any* at, Arguments&&... arguments) {
         if constexpr (sizeof...(Arguments) == 0)
-            ::new (static_cast<void*>(at)) Any; // numbers are left what they are
+            ::new (static_cast<void*>(at)) Any; // no initialisation of numbers
         else
             ::new (static_cast<void*>(at)) Any(std::forward<Arguments>(arguments)...);
     }
 };
 
-/// Beware: resize() leaves new pixels what they are.
+/// Beware: resize() leaves new pixels uninitialised.
 template <class Pixel>
 using PixelVector = std::vector<Pixel, PixelAllocator<Pixel>>;
 
-/// Instead of a colour: pixels are anything. For an image all of which is written before it is read: a large one
-/// is then touched first by the threads that write it, side by side, and not by the one that asks for it.
+/// Tag for an image with uninitialised pixels, all of which are written before they are read. The threads that
+/// write a large image then touch its pages first, in parallel, and not the thread that creates it.
 struct Unfilled {};
 
 /// A raster of pixels, row by row from the top left. An image of width or height 0 is empty.
@@ -107,7 +107,7 @@ public:
         : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
     Image(const Image&) = default;
     Image& operator=(const Image&) = default;
-    /// The other one is empty then.
+    /// Leaves the other image empty.
     Image(Image&& other) noexcept
         : width_(std::exchange(other.width_, 0)), height_(std::exchange(other.height_, 0)),
           pixels_(std::move(other.pixels_)) {}
@@ -130,7 +130,7 @@ public:
     Pixel* data() { return pixels_.data(); }
     const Pixel* data() const { return pixels_.data(); }
 
-    /// Gives the pixels away, row by row: it is empty then.
+    /// Moves the pixels out, row by row, and leaves the image empty.
     PixelVector<Pixel> take_pixels() {
         width_ = height_ = 0;
         return std::move(pixels_);
@@ -149,7 +149,7 @@ private:
 
 using RgbImage = Image<Rgb>;
 
-/// Numbers as shades of grey.
+/// Returns a grey image of the numbers.
 inline RgbImage grey(const Image<float>& numbers) {
     RgbImage image(numbers.width(), numbers.height());
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -157,31 +157,31 @@ inline RgbImage grey(const Image<float>& numbers) {
     return image;
 }
 
-/// What makes pictures of a coefficient e = v / a of the radiance v, where a > 0 is about the albedo of what a
-/// pixel sees, and 0 where it sees nothing: Lossless Basis Expansion [Fang 2024] with one function. All images of
-/// one size, or all empty: then primal and gradients are of v itself.
+/// Data that turn pictures of the coefficient e = v / a into radiance v, METHODS (27). The albedo a > 0 is
+/// approximately that of what the pixel sees, and 0 where it sees nothing: Lossless Basis Expansion [Fang 2024]
+/// with one function. All images have one size. If all are empty, primal and gradients are those of v itself.
 struct Demodulation {
-    RgbImage value;               ///< mean of v, without very direct light
-    RgbImage albedo;              ///< mean of a over many points of each pixel, none of them a sample's
-    RgbImage sampled_albedo;      ///< mean of the a that the samples were divided by
-    Image<float> albedo_variance; ///< of a over the points of each pixel, summed over the channels
-    Image<float> sampled_share;   ///< weight of sampled_albedo in the best mean of both, in [0, 1]
+    RgbImage value;               ///< m(v): mean of v, without directly visible emission
+    RgbImage albedo;              ///< A: mean of a over points of the pixel that are no samples
+    RgbImage sampled_albedo;      ///< m(a): mean of a over the samples
+    Image<float> albedo_variance; ///< V_a: of a over the points of the pixel, summed over the channels
+    Image<float> sampled_share;   ///< weight of m(a) against A in known_albedo(), in [0, 1]
 
-    // From sample to sample, per channel; of a single one 0.
+    // Variance and covariance over a pixel's samples, per channel; 0 for one sample.
     RgbImage sampled_variance; ///< of a
     RgbImage value_covariance; ///< of v with a
-    /// Of the mean of e, what is left of it where e follows a; summed over the channels.
+    /// V_e' of METHODS (47): variance of m(e) that a does not explain, summed over the channels.
     Image<float> unexplained_variance;
 
     static constexpr std::size_t bytes_a_pixel = 5 * sizeof(Rgb) + 3 * sizeof(float);
     bool empty() const { return albedo.empty(); }
 };
 
-/// Part l of a coefficient, by a function of the directions that light comes from [Fang 2024]: e is the sum of
-/// projection times part, and each part is smoother than e where normals or roughness change. All images of one
-/// size.
+/// Component l of the coefficient e, for one function of the direction that light comes from [Fang 2024]. e is the
+/// sum of projection times component, METHODS (31). Each component is smoother than e where normals or roughness
+/// change. All images have one size.
 struct BasisComponent {
-    Image<float> projection; ///< s^l of each pixel
+    Image<float> projection; ///< s^l of each pixel, METHODS (30)
     RgbImage primal, dx, dy; ///< e^l, and its forward differences
     /// Variances of these means, summed over the channels; empty if they are unknown.
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
@@ -189,25 +189,24 @@ struct BasisComponent {
     static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb) + 4 * sizeof(float);
 };
 
-/// Of each pixel the sample that brought most, in primal or gradients: what the others are to be judged without
-/// (recon/guided/fireflies.h). All images of one size, or all empty.
+/// The brightest sample of each pixel, in primal or gradients (recon/guided/fireflies.h). All images have one
+/// size, or all are empty.
 struct BrightestSamples {
-    RgbImage primal, dx, dy; ///< of GradientImages; dx and dy empty where these are
-    RgbImage albedo;         ///< what its primal was divided by; empty without Demodulation
-    Image<float> half;       ///< its weight in HalfDifferences, about 1 or -1; empty without these
-    int samples = 0;         ///< that each pixel has, this one among them
+    RgbImage primal, dx, dy; ///< values of that sample; dx and dy empty as in GradientImages
+    RgbImage albedo;         ///< albedo a of that sample; empty without Demodulation
+    Image<float> half;       ///< its weight in HalfDifferences, about 1 or -1; empty without them
+    int samples = 0;         ///< samples of each pixel, including this one
 
     static constexpr std::size_t bytes_a_pixel = 4 * sizeof(Rgb) + sizeof(float);
     bool empty() const { return primal.empty(); }
 };
 
-/// What a pixel shows first that is not a mere mirror or clear glass, followed through these: pixels that look
-/// alike in it have about the same light.
+/// Features of the first surface on a camera ray that is neither a mirror nor clear glass, METHODS (43).
 struct SurfaceFeatures {
-    Rgb albedo{0};       ///< of what is seen, times what mirrors and glass on the way leave; 1: nothing is met
-    glm::vec3 normal{0}; ///< of shading, unit, in the world; 0: nothing is met
-    float nearness = 0;  ///< inverse length of the way, in units of the scene; 0: nothing is met
-    float roughness = 0; ///< of what is seen (Bsdf::roughness): 0 as a mirror, 1 diffuse; 0: nothing is met
+    Rgb albedo{0};       ///< of the surface, times the attenuation by mirrors and glass; 1: no surface
+    glm::vec3 normal{0}; ///< shading normal, unit, in world space; 0: no surface
+    float nearness = 0;  ///< inverse length of the path to it, in scene units; 0: no surface
+    float roughness = 0; ///< Bsdf::roughness: 0 for a mirror, 1 for diffuse; 0: no surface
 
     void operator+=(const SurfaceFeatures& other) {
         albedo += other.albedo;
@@ -217,7 +216,8 @@ struct SurfaceFeatures {
     }
 };
 
-/// Means of features over the points of each pixel. All images of one size, or all empty: unknown.
+/// Feature buffers: means of SurfaceFeatures over points of each pixel. All images have one size, or all are
+/// empty.
 struct FeatureImages {
     RgbImage albedo;
     Image<glm::vec3> normal;
@@ -227,45 +227,44 @@ struct FeatureImages {
     bool empty() const { return albedo.empty(); }
 };
 
-/// Half the difference between what one half of the passes and what the other says, each in the mean: noise alone,
-/// and as much of it as is in the mean of all. All images of one size; dx and dy empty without gradients, all
-/// empty where they are unknown.
+/// Half differences N of METHODS (41): they have expectation 0 and the variance of the mean. All images have one
+/// size. dx and dy are empty without gradients; all are empty if unknown.
 struct HalfDifferences {
-    RgbImage primal, dx, dy; ///< of those of GradientImages
+    RgbImage primal, dx, dy; ///< of the images of GradientImages
 
     static constexpr std::size_t bytes_a_pixel = 3 * sizeof(Rgb);
     bool empty() const { return primal.empty(); }
 };
 
-/// What a gradient-domain method measures, as means over the samples taken; all images of one size.
-/// A method without gradients leaves dx and dy empty.
+/// Means over all samples of a gradient-domain method. All images have one size. dx and dy are empty for a method
+/// without gradients.
 struct GradientImages {
-    RgbImage primal;      ///< radiance without what is in very_direct, or its coefficient (Demodulation)
-    RgbImage dx;          ///< dx(x, y) estimates I(x+1, y) - I(x, y); the last column is 0 and means nothing
-    RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and means nothing
-    RgbImage very_direct; ///< emission seen by the camera, straight or in mirrors; added after the reconstruction
+    RgbImage primal;      ///< radiance without very_direct, or its coefficient e (Demodulation)
+    RgbImage dx;          ///< dx(x, y) estimates I(x+1, y) - I(x, y); the last column is 0 and unused
+    RgbImage dy;          ///< dy(x, y) estimates I(x, y+1) - I(x, y); the last row is 0 and unused
+    RgbImage very_direct; ///< directly visible emission, also in mirrors; added after reconstruction
 
     /// Variances of these means, summed over the channels; empty if they are unknown.
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
     Demodulation demodulation{};
-    std::vector<BasisComponent> parts{}; ///< none: the coefficient is reconstructed as a whole
+    std::vector<BasisComponent> parts{}; ///< components of the basis; empty: e is reconstructed as a whole
     BrightestSamples brightest{};        ///< empty: unknown
     HalfDifferences halves{};
     FeatureImages features{};
 
-    /// Edge of the squares of pixels whose primals have much the same noise, as tiles that share their light make
-    /// it; >= 1, where 1 means that every pixel has its own.
+    /// Edge in pixels, >= 1, of the squares whose primals have correlated noise, such as tiles that reuse paths.
+    /// 1: the noise of pixels is independent.
     float patch = 1;
 
     bool has_gradients() const { return !dx.empty() && !dy.empty(); }
-    /// Radiance as sampled, without very direct light.
+    /// Returns the raw radiance, without directly visible emission.
     const RgbImage& radiance() const { return demodulation.empty() ? primal : demodulation.value; }
-    /// Whether all three images have them.
+    /// Returns whether primal, dx and dy have variances.
     bool has_variances() const { return !primal_variance.empty() && !dx_variance.empty() && !dy_variance.empty(); }
 };
 
-/// A rectangle of pixels: first column and row, and one past the last.
+/// Rectangle of pixels: first column and row, and one past the last.
 struct PixelRect {
     int x0, y0, x1, y1;
 
@@ -275,14 +274,14 @@ struct PixelRect {
     PixelRect clipped(glm::ivec2 size) const {
         return {std::max(x0, 0), std::max(y0, 0), std::min(x1, size.x), std::min(y1, size.y)};
     }
-    /// The rectangle with one more column and row, where the image of that size has them: the neighbours to which
-    /// forward gradients lead.
+    /// Returns the rectangle with one more column and row where the image has them: the pixels to which forward
+    /// differences lead.
     PixelRect with_halo(glm::ivec2 size) const { return PixelRect{x0, y0, x1 + 1, y1 + 1}.clipped(size); }
     bool operator==(const PixelRect&) const = default;
     bool contains(glm::ivec2 p) const { return p.x >= x0 && p.y >= y0 && p.x < x1 && p.y < y1; }
 };
 
-/// Calls `visit(square)` for the squares of a given edge that fill a rectangle, row by row; the last ones are cut
+/// Calls visit(square) for squares of the given edge that cover a rectangle, row by row. The last ones are cut
 /// off.
 template <class Visit>
 void for_each_square(PixelRect rect, int edge, Visit&& visit) {

@@ -10,7 +10,7 @@ Image<float> local_mean_brightness(Image<float> brightness, int radius, const Pa
     const int width = brightness.width(), height = brightness.height();
     for_pixels(width, height, parallel_for, [&](std::size_t i) {
         float& b = brightness.data()[i];
-        b = b < largest ? b : largest; // NaN, too
+        b = b < largest ? b : largest; // also replaces NaN
     });
     Image<float> rows(width, height, Unfilled());
     for (int round = 0; round < 2; ++round)

@@ -15,47 +15,48 @@ struct GuidedStages {
     bool regression = true;     ///< regression on features
 };
 
-/// All constants. METHODS.md, "Ablation", has a row for each: the change of the errors when it is halved and when
-/// it is doubled, as tests/bench/ablation_bench.cpp prints them. Those that are marked so are not tuned. Distances
-/// are in pixels.
+/// Constants of the stages. METHODS.md, "Ablation", shows how the errors change when some of them are halved or
+/// doubled (tests/bench/ablation_bench.cpp). Constants marked "not tuned" were not measured. Distances are in
+/// pixels.
 struct GuidedParameters {
     GuidedStages stages;
 
-    // Fireflies: a sample may be so large a fraction of all other samples, or so many times their mean.
+    // Fireflies, METHODS (56) and (57). A sample's limit is this fraction of the sum, or this factor times the
+    // mean, of the others.
     float firefly_fraction = 0.125f;
     float firefly_factor = 2;
-    float firefly_own = 0.5f; ///< weight of the other samples of the pixel alone against those of 3x3 pixels
+    float firefly_own = 0.5f; ///< weight of the pixel's own other samples against the mean over 3x3 pixels
 
-    // Local mean brightness, the unit of what is dark.
-    float dark = 0.2f; ///< weight of the local mean that is added to every brightness that errors are relative to
-    int local_radius = 32; ///< of its squares
+    // Local mean brightness L, METHODS (42).
+    float dark = 0.2f;     ///< weight of L, which is added to every brightness that differences are divided by
+    int local_radius = 32; ///< radius of the squares of L
 
-    // Edge weights, also those of the published reconstruction `weighted`.
-    float edge_noise = 0.5f;   ///< k of weights_of_gradients()
-    float alpha_scale = 0.35f; ///< alpha of weighted reconstructions over that of L2
-    int gradient_radius = 1;   ///< of the squares over which variances of gradients are averaged
-    int primal_radius = 3;     ///< and those of the primal
+    // Edge weights, METHODS (38) to (40), also of the published reconstruction `weighted`.
+    float edge_noise = 0.5f;   ///< factor of k in METHODS (39)
+    float alpha_scale = 0.35f; ///< alpha of weighted reconstructions relative to L2
+    int gradient_radius = 1;   ///< radius of the squares over which variances of gradients are averaged
+    int primal_radius = 3;     ///< radius for variances of the primal
 
-    // Covariance of albedo and light.
-    float slope_prior = 0.1f; ///< weight of the slope expected, in variances of a pixel's albedo
+    // Remodulation, METHODS (46).
+    float slope_prior = 0.1f; ///< weight of the prior slope, in variances of a pixel's albedo
 
-    // Features.
+    // Features, METHODS (43).
     float feature_width =
         0.5f; ///< difference of albedo, normal or log depth that counts as one standard deviation
-    float roughness_width = 0.2f; ///< likewise, of the root of the roughness
+    float roughness_width = 0.2f; ///< the same for the root of the roughness
     float least_albedo = 0.02f;   ///< the smallest albedo by which radiance is divided
 
-    // Redistribution.
-    float most_added = 0.1f;     ///< of a pixel's brightness, that similar pixels add; the rest goes around
-    int around_radius = 6;       ///< of the blur that takes the rest around
-    std::size_t near_levels = 2; ///< of the kernels whose mean brightness the rest follows; not tuned
-    float least_local = 1e-4f;   ///< of the local mean, that the rest follows where all is black; not tuned
+    // Redistribution, METHODS (59) and (60).
+    float most_added = 0.1f;     ///< largest addition to a pixel with similar features, relative to S
+    int around_radius = 6;       ///< radius of the blur that spreads the rest
+    std::size_t near_levels = 2; ///< kernel levels whose mean brightness the rest follows; not tuned
+    float least_local = 1e-4f;   ///< weight of L in that brightness, for black surroundings; not tuned
 
-    // Filter and regression.
-    std::size_t levels = 4; ///< of kernels, each three times as wide as the last
-    int noise_radius = 6;   ///< of the squares over which noise and differences are measured
-    float square_width = 5; ///< variances of noise by which the brightness of two squares may differ
-    float ridge = 1e-5f;    ///< draws slopes of the regression to 0, relative to the weights of a square
+    // Filter and regression, METHODS (48) to (55).
+    std::size_t levels = 4; ///< number of filter levels, each three times as wide as the last
+    int noise_radius = 6;   ///< radius of the squares over which noise and differences are measured
+    float square_width = 5; ///< noise variances by which the brightness of two squares may differ
+    float ridge = 1e-5f;    ///< ridge of the regression, relative to the sum of weights of a square
 };
 
 } // namespace tessera

@@ -1,4 +1,4 @@
-// Loops over the pixels of images by the threads that a caller lends: the same bits for any of these.
+// Parallel loops over the pixels of images. The results have the same bits for any ParallelFor.
 #pragma once
 
 #include "recon/image.h"
@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// Calls visit(i) for all pixels of a picture, by their place in its rows.
+/// Calls visit(i) for all pixels of a picture, with i = y width + x.
 template <class Visit>
 void for_pixels(int width, int height, const ParallelFor& parallel_for, Visit&& visit) {
     parallel_for(height, [&](int y) {
@@ -20,8 +20,8 @@ void for_pixels(int width, int height, const ParallelFor& parallel_for, Visit&& 
     });
 }
 
-/// The sum of term(i), a number, over all pixels: of each row for itself, by some sums that do not wait for each
-/// other, then of the rows.
+/// Returns the sum of term(i) over all pixels. Each row has eight independent sums, which the compiler vectorises;
+/// then the rows are added in order.
 template <class Term>
 double sum_over_pixels(int width, int height, const ParallelFor& parallel_for, Term&& term) {
     std::vector<double> rows(static_cast<std::size_t>(height));
@@ -40,7 +40,7 @@ double sum_over_pixels(int width, int height, const ParallelFor& parallel_for, T
     return std::accumulate(rows.begin(), rows.end(), 0.0);
 }
 
-/// An image of one value, which all threads fill.
+/// Returns an image of one value, filled in parallel.
 template <class Pixel>
 Image<Pixel> filled_image(int width, int height, Pixel value, const ParallelFor& parallel_for) {
     Image<Pixel> image(width, height, Unfilled());
@@ -48,7 +48,7 @@ Image<Pixel> filled_image(int width, int height, Pixel value, const ParallelFor&
     return image;
 }
 
-/// The same pixels once more.
+/// Returns a copy, made in parallel.
 template <class Pixel>
 Image<Pixel> copy_of(const Image<Pixel>& image, const ParallelFor& parallel_for) {
     Image<Pixel> copy(image.width(), image.height(), Unfilled());

@@ -30,16 +30,16 @@ Image<float> square_means(const Image<float>& values, int radius, int columns, i
 }
 
 void sum_windows(float* in, std::size_t size, int count, std::size_t step, float* out) {
-    std::size_t numbers = size + static_cast<std::size_t>(count - 1) * step, from = 0;
+    std::size_t numbers = size + static_cast<std::size_t>(count - 1) * step, offset = 0;
     for (bool is_first = true;; count /= 2, step *= 2) {
         if (count % 2 == 1) {
             if (is_first)
                 std::copy_n(in, size, out);
             else
                 for (std::size_t i = 0; i < size; ++i)
-                    out[i] += in[from + i];
+                    out[i] += in[offset + i];
             is_first = false;
-            from += step;
+            offset += step;
         }
         if (count == 1)
             return;
@@ -51,32 +51,32 @@ void sum_windows(float* in, std::size_t size, int count, std::size_t step, float
 
 namespace {
 
-/// Of one strip: visit(y, sums), with rows that begin where it does.
+/// Does the same as for_sums_of_rows() for one strip: calls visit(y, sums).
 template <class Row, class Visit>
 void for_sums_of_strip(std::size_t width, int height, int radius, Row&& row, Visit&& visit) {
     const int count = 2 * radius + 1;
-    PixelVector<float> to_end(static_cast<std::size_t>(count + 1) * width), from_end(width);
-    const auto sums_to_end = [&](int k) { return to_end.data() + static_cast<std::size_t>(k) * width; };
-    std::fill_n(sums_to_end(count), width, 0.0f);
+    PixelVector<float> suffix_sums(static_cast<std::size_t>(count + 1) * width), prefix_sum(width);
+    const auto suffix_sum = [&](int k) { return suffix_sums.data() + static_cast<std::size_t>(k) * width; };
+    std::fill_n(suffix_sum(count), width, 0.0f);
     for (int first = 0; first < height; first += count) {
         for (int k = count - 1; k >= 0; --k) {
-            const float *more = row(first + k - radius), *later = sums_to_end(k + 1);
-            float* sums = sums_to_end(k);
-            if (more == nullptr)
-                std::copy_n(later, width, sums);
+            const float *added = row(first + k - radius), *next = suffix_sum(k + 1);
+            float* sums = suffix_sum(k);
+            if (added == nullptr)
+                std::copy_n(next, width, sums);
             else
                 for (std::size_t i = 0; i < width; ++i)
-                    sums[i] = later[i] + more[i];
+                    sums[i] = next[i] + added[i];
         }
-        visit(first, sums_to_end(0));
-        std::fill(from_end.begin(), from_end.end(), 0.0f);
+        visit(first, suffix_sum(0));
+        std::fill(prefix_sum.begin(), prefix_sum.end(), 0.0f);
         for (int k = 1; k < std::min(count, height - first); ++k) {
-            float *sums = sums_to_end(k), *earlier = from_end.data();
-            if (const float* more = row(first + k + radius))
+            float *sums = suffix_sum(k), *prefix = prefix_sum.data();
+            if (const float* added = row(first + k + radius))
                 for (std::size_t i = 0; i < width; ++i)
-                    earlier[i] += more[i];
+                    prefix[i] += added[i];
             for (std::size_t i = 0; i < width; ++i)
-                sums[i] += earlier[i];
+                sums[i] += prefix[i];
             visit(first + k, sums);
         }
     }
@@ -101,7 +101,7 @@ void for_sums_of_rows(std::size_t width, int height, int radius, const std::func
 
 namespace {
 
-/// Means along each row, as far as there is one.
+/// Writes means along each row over the columns within the radius.
 void write_row_means(const Image<float>& values, int radius, const ParallelFor& parallel_for,
                      Image<float>& means) {
     const int width = values.width(), reach = std::min(radius, width - 1);

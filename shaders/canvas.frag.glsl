@@ -1,30 +1,29 @@
-// Shows an image of radiance (exposure, then a tone curve), of gradients and differences (+/- colours), or of numbers
-// (false colours) in a pane, or what has colours already. Before this text stand constants that say which
-// (CanvasShader):
-//     int colour_map      0: radiance, or one of those below
-//     int sampling        0: the image's pixel that the pane's lies in, or `averaged`
+// Displays an image in a pane: radiance (exposure, then a tone curve), gradients and differences (+/- colours), numbers
+// (false colours), or display colours. CanvasShader puts these constants before this text:
+//     int colour_map      0: radiance, or a constant below
+//     int sampling        0: the nearest image pixel, or `averaged`
 //     bool is_difference  to a second image
 
 uniform sampler2D image;
 uniform ivec2 pane_size;    // pixels
 uniform vec2 image_origin;  // top left corner of the image in the pane, pixels from the pane's top left
 uniform vec2 image_extent;  // size of the image in the pane, pixels
-uniform sampler2D subtrahend; // what a difference takes off, stretched over the image
+uniform sampler2D subtrahend; // second image of a difference, stretched over the first
 uniform float gain;         // 2^exposure
-uniform int tone_curve;     // 0: sRGB, or the one below
-uniform vec2 range;         // the values that false colours begin and end with
-uniform bool is_logarithmic; // false colours stand for powers
-uniform vec3 false_colours[9]; // display colours of the range, evenly spaced
+uniform int tone_curve;     // 0: sRGB, or a constant below
+uniform vec2 range;         // values of the first and last false colour
+uniform bool is_logarithmic; // false colours are logarithmic
+uniform vec3 false_colours[9]; // display colours, evenly spaced over the range
 uniform bool marks_negative;
 uniform vec3 background;    // display colour around the image
 
 out vec4 colour;
 
-const int signed_difference = 1; // gradients: the luminance's sign becomes a hue
-const int false_colour = 2;      // numbers: red alone counts
-const int direction = 3;         // -1 to 1 in each channel
-const int own = 4;               // display colours
-const int averaged = 1; // of all pixels of the image that the pane's covers
+const int signed_difference = 1; // gradients: a hue for each sign of the luminance
+const int false_colour = 2;      // numbers in the red channel
+const int direction = 3;         // directions: -1 to 1 in each channel
+const int own = 4;               // display colours, shown unchanged
+const int averaged = 1; // mean over the image pixels that a pane pixel covers
 const int filmic_curve = 1;
 const vec3 nan_colour = vec3(1.0, 0.0, 1.0);
 const vec3 infinity_colour = vec3(0.0, 1.0, 1.0);
@@ -32,17 +31,17 @@ const vec3 negative_colour = vec3(0.15, 0.25, 1.0);
 const vec3 zero_colour = vec3(0.10, 0.10, 0.11);
 const vec3 plus_colour = vec3(1.00, 0.66, 0.20);
 const vec3 minus_colour = vec3(0.26, 0.62, 1.00);
-const int most_taps = 256; // an axis, where a pane's pixel covers several of the image: so many that none is missed
+const int most_taps = 256; // samples along an axis when a pane pixel covers several image pixels
 
 float srgb(float c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055; }
 
-// ACES' reference transform, fitted by a fraction [Narkowicz 2015].
+// Rational fit of the ACES reference transform [Narkowicz 2015].
 vec3 filmic(vec3 c) {
     c = max(c, 0.0);
     return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
 }
 
-// By bits: compilers may take isnan() to be false.
+// Tests bits, since compilers may assume that isnan() is false.
 bool is_nan(float v) { return (floatBitsToUint(v) & 0x7fffffffu) > 0x7f800000u; }
 bool is_infinite(float v) { return (floatBitsToUint(v) & 0x7fffffffu) == 0x7f800000u; }
 bool any_nan(vec3 v) { return is_nan(v.r) || is_nan(v.g) || is_nan(v.b); }
@@ -50,8 +49,8 @@ bool any_infinite(vec3 v) { return is_infinite(v.r) || is_infinite(v.g) || is_in
 
 float luminance(vec3 c) { return dot(c, vec3(0.212671, 0.715160, 0.072169)); }
 
-// What is shown of a value before the display's curve: in [0, 1], signed in [-1, 1]. Averages are taken of this,
-// so that one bright pixel does not outshine its neighbours when the image is shrunk.
+// Returns a value before the display's curve: in [0, 1], or signed in [-1, 1]. Averages are taken after this, so that a
+// bright pixel does not dominate when the image is shrunk.
 vec3 exposed(vec3 value) {
     if (colour_map == false_colour) {
         float v = value.r;
@@ -67,8 +66,8 @@ vec3 exposed(vec3 value) {
     return tone_curve == filmic_curve ? filmic(min(value * gain, 1e4)) : clamp(value * gain, 0.0, 1.0);
 }
 
-vec3 in_false_colour(float share) {
-    float place = share * float(false_colours.length() - 1);
+vec3 in_false_colour(float fraction) {
+    float place = fraction * float(false_colours.length() - 1);
     int below = min(int(place), false_colours.length() - 2);
     return mix(false_colours[below], false_colours[below + 1], place - float(below));
 }
@@ -87,7 +86,7 @@ bool is_marked_negative(vec3 v) {
     return marks_negative && colour_map == 0 && any(lessThan(v, vec3(0.0)));
 }
 
-// What lies in a pixel of the image, that of a point outside in the nearest.
+// Returns the image pixel at a place in pixels, clamped to the image, minus the subtrahend there.
 vec3 fetched(vec2 place, ivec2 size) {
     ivec2 point = clamp(ivec2(floor(place)), ivec2(0), size - 1);
     vec3 value = texelFetch(image, point, 0).rgb;
@@ -98,12 +97,12 @@ vec3 fetched(vec2 place, ivec2 size) {
     return value - texelFetch(subtrahend, other, 0).rgb;
 }
 
-// What was found among the pixels looked at.
+// Invalid or negative values among the pixels read.
 struct Oddities {
     bool is_nan, is_infinite, is_negative;
 };
 
-void look(vec3 value, inout Oddities odd) {
+void note_oddities(vec3 value, inout Oddities odd) {
     odd.is_nan = odd.is_nan || any_nan(value);
     odd.is_infinite = odd.is_infinite || any_infinite(value);
     odd.is_negative = odd.is_negative || is_marked_negative(value);
@@ -116,7 +115,7 @@ vec3 marked(vec3 display_colour, Oddities odd) {
                              : display_colour;
 }
 
-// The image's pixels that a pixel of the pane covers, exposed.
+// Returns the exposed mean over the image pixels in [from, to), which a pane pixel covers.
 vec3 average(vec2 from, vec2 to, ivec2 size, inout Oddities odd) {
     ivec2 taps = clamp(ivec2(ceil(to - from - 0.01)), ivec2(1), ivec2(most_taps));
     vec3 sum = vec3(0.0);
@@ -124,14 +123,14 @@ vec3 average(vec2 from, vec2 to, ivec2 size, inout Oddities odd) {
         for (int x = 0; x < taps.x; ++x) {
             vec2 point = mix(from, to, (vec2(x, y) + 0.5) / vec2(taps));
             vec3 value = fetched(point, size);
-            look(value, odd);
+            note_oddities(value, odd);
             sum += exposed(value);
         }
     }
     return sum / float(taps.x * taps.y);
 }
 
-// What the image has for a pixel of the pane, exposed; `where` is its centre, as shares of the image.
+// Returns the exposed image value for a pane pixel; `where` is its centre, as a fraction of the image.
 vec3 sampled(vec2 pixel, vec2 where, inout Oddities odd) {
     ivec2 size = textureSize(image, 0);
     if (sampling == averaged) {
@@ -140,7 +139,7 @@ vec3 sampled(vec2 pixel, vec2 where, inout Oddities odd) {
         return average(from, from + to_image, size, odd);
     }
     vec3 value = fetched(where * vec2(size), size);
-    look(value, odd);
+    note_oddities(value, odd);
     return exposed(value);
 }
 

@@ -1,5 +1,5 @@
 #version 330 core
-// One triangle that covers the pane; no buffers needed.
+// Makes one triangle that covers the pane, without buffers.
 
 void main() {
     vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);

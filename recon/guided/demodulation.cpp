@@ -37,26 +37,26 @@ std::vector<Sum> sums_around(int y, int width, int height, ValueOf value_of) {
     return sums;
 }
 
-/// Sums over 3x3 pixels, from sample to sample within each.
+/// S_va and S_aa of METHODS (46): sums over 3x3 pixels of the (co)variances over each pixel's samples.
 struct SlopeSums {
-    Rgb covariance, variance; ///< of v with a, and of a
+    Rgb covariance, variance; ///< S_va, S_aa
 };
 
-/// Returns b, the slope of v over a: E where the samples know little. The prior has more weight where the samples
-/// vary less than the points of this pixel: neighbours whose albedo hardly changes say nothing of one whose does.
+/// Returns b of METHODS (46), the slope of v over a. The prior E has more weight where V_a exceeds the variance of
+/// the samples: neighbours whose albedo hardly changes say nothing of this pixel.
 Rgb slope(const GradientImages& images, const SlopeSums& sums, float prior, Rgb light, int x, int y) {
-    constexpr float least = 1e-4f; // of the squared albedo: smaller differences may be rounding
+    constexpr float least = 1e-4f; // relative to A^2: smaller differences may be rounding
     constexpr float most = 1e10f;  // keeps products finite, whatever a file holds
     const Demodulation& d = images.demodulation;
     const Rgb albedo = known_albedo(d, x, y);
-    const float all = sums.variance.r + sums.variance.g + sums.variance.b;
+    const float trace = sums.variance.r + sums.variance.g + sums.variance.b;
     const float variance = std::min(d.albedo_variance(x, y), most);
-    const float beside = std::clamp(variance / std::max(all, 1 / most), 1.0f, most);
-    const Rgb weight = prior * beside * variance / 3 + least * albedo * albedo;
+    const float excess = std::clamp(variance / std::max(trace, 1 / most), 1.0f, most);
+    const Rgb weight = prior * excess * variance / 3 + least * albedo * albedo;
     return (sums.covariance + weight * light) / glm::max(sums.variance + weight, 1e-20f);
 }
 
-/// Writes m(v) - A m(e) - b (m(a) - A) of row y.
+/// Writes rho = m(v) - A m(e) - b (m(a) - A) of row y, METHODS (45).
 void write_covariance(const GradientImages& images, const RgbImage& light, float prior, int y, RgbImage& rho) {
     const Demodulation& d = images.demodulation;
     const int width = light.width();
@@ -73,13 +73,13 @@ void write_covariance(const GradientImages& images, const RgbImage& light, float
     }
 }
 
-/// Returns k of the pixels of row y. The noise is a squared mean of roots: in a mean of squares one noisy pixel
-/// would hide the covariance of all pixels around.
+/// Returns k of the pixels of row y, METHODS (47). The noise is a squared mean of roots: in a mean of squares one
+/// noisy pixel would hide the covariance of all pixels around.
 std::vector<float> trust(const GradientImages& images, const RgbImage& rho, int y) {
     const Demodulation& d = images.demodulation;
     const auto sums = sums_around<glm::dvec3>(y, rho.width(), rho.height(), [&](int x, int j) {
         const glm::dvec3 r(rho(x, j));
-        // As if each channel had a third of both variances.
+        // Each channel is taken to have a third of both variances.
         const double noise =
             static_cast<double>(d.albedo_variance(x, j)) * static_cast<double>(d.unexplained_variance(x, j)) / 3;
         return glm::dvec3(std::sqrt(std::max(noise, 0.0)), glm::dot(r, r), 1);

@@ -11,30 +11,30 @@ namespace tessera {
 
 namespace {
 
-/// The pixels of a line that have another one `step` further on.
+/// The pixels [begin, end) of a row or column that have a pixel `step` further on.
 struct PairedPixels {
     int size, begin, end;
 
     PairedPixels(int all, int step)
         : size(all), begin(std::clamp(-step, 0, all)), end(std::clamp(all - step, begin, all)) {}
 
-    /// The factor that turns the mean over all pixels of the line within the radius into the mean over the paired
-    /// ones.
-    float of_paired(int x, int radius) const {
+    /// Returns the factor that turns a mean over all pixels within the radius into one over the paired pixels, if
+    /// the others are 0.
+    float paired_mean_factor(int x, int radius) const {
         const int all = std::min(size, x + radius + 1) - std::max(0, x - radius);
         const int paired = std::min(end, x + radius + 1) - std::max(begin, x - radius);
         return static_cast<float>(all) / static_cast<float>(paired);
     }
 };
 
-/// `count` pixels of a row from (x, y) on, and as many from (to_x, to_y) on, with which they are compared.
+/// `count` pixels of a row from (x, y) on, and the pixels from (to_x, to_y) on with which they are compared.
 struct PixelRuns {
     int x, y, to_x, to_y, count;
 };
 
-/// About exp(-unlike), and 0 from 8 on.
-float similarity(float unlike) {
-    float w = std::max(0.0f, 1 - unlike * 0.125f);
+/// Returns s of METHODS (44), about exp(-u), and 0 for u >= 8.
+float similarity(float u) {
+    float w = std::max(0.0f, 1 - u * 0.125f);
     w *= w;
     w *= w;
     return w * w;
@@ -42,16 +42,16 @@ float similarity(float unlike) {
 
 /// Writes the weights by features, each at the first pixel of its pair.
 void weigh(const FeaturePlanes& features, const PixelRuns& runs, PairWeight* weights) {
-    float unlike[kernel_chunk] = {};
+    float distance[kernel_chunk] = {};
     for (const Plane& feature : features) {
         if (feature.empty())
             continue;
         const float *here = feature.row(runs.y) + runs.x, *there = feature.row(runs.to_y) + runs.to_x;
         for (int i = 0; i < runs.count; ++i)
-            unlike[i] += (here[i] - there[i]) * (here[i] - there[i]);
+            distance[i] += (here[i] - there[i]) * (here[i] - there[i]);
     }
     for (int i = 0; i < runs.count; ++i)
-        weights[i] = pair_weight(similarity(unlike[i]));
+        weights[i] = pair_weight(similarity(distance[i]));
 }
 
 void write_weights_by_features(const FeaturePlanes& features, int step, const ParallelFor& parallel_for,
@@ -68,12 +68,12 @@ void write_weights_by_features(const FeaturePlanes& features, int step, const Pa
     });
 }
 
-/// Calls visit(i, unlike) for the i-th of some pixels of row y, with the squared difference of its brightness to
-/// that of the pixel a step further on, over the variance of their noise.
-/// @param brightness, noise  logarithm, and the variance of its noise
+/// Calls visit(i, d) for the pixels columns.begin + i of row y, with d of METHODS (49): the squared difference of
+/// log brightness to the pixel a step further on, over the variance of their noise.
+/// @param brightness, noise  logarithm of the brightness, and the variance of its noise
 template <class Visit>
-void for_unlikeness(const Plane& brightness, const Plane& noise, int y, KernelPair step, PairedPixels columns,
-                    const Visit& visit) {
+void for_distances(const Plane& brightness, const Plane& noise, int y, KernelPair step, PairedPixels columns,
+                   const Visit& visit) {
     if (columns.begin == columns.end)
         return;
     const int here = columns.begin, there = columns.begin + step.i;
@@ -93,7 +93,7 @@ FeaturePlanes planes_of(const FeatureImages& features, const GuidedParameters& p
     const int width = features.albedo.width(), height = features.albedo.height();
     make_planes(planes, width, height);
     for_pixels(width, height, parallel_for, [&](std::size_t i) {
-        constexpr float farthest = 1e-10f; // inverse of a depth; stands for infinity
+        constexpr float farthest = 1e-10f; // inverse distance that stands for infinity
         for (int c = 0; c < 3; ++c) {
             planes[c].data()[i] = features.albedo.data()[i][c] / parameters.feature_width;
             planes[c + 3].data()[i] = features.normal.data()[i][c] / parameters.feature_width;
@@ -142,14 +142,14 @@ void write_noisy_weights(const PairWeights& by_features, const Plane& brightness
             float* row = pairs.row(y);
             std::fill_n(row, width, 0.0f);
             if (y < rows.end)
-                for_unlikeness(brightness, noise, y, apart, columns,
-                               [=](int i, float unlike) { row[columns.begin + i] = unlike; });
+                for_distances(brightness, noise, y, apart, columns,
+                              [=](int i, float distance) { row[columns.begin + i] = distance; });
         });
         take_wide_means(pairs, radius, scratch.rows, parallel_for);
         for (int x = columns.begin; x < columns.end; ++x)
-            scales[x] = columns.of_paired(x, radius) / parameters.square_width;
+            scales[x] = columns.paired_mean_factor(x, radius) / parameters.square_width;
         parallel_for(rows.end, [&](int y) {
-            const float scale = rows.of_paired(y, radius);
+            const float scale = rows.paired_mean_factor(y, radius);
             const float* squares = pairs.row(y);
             const PairWeight* by_feature = by_features[k].row(y);
             PairWeight* row = weights[k].row(y);

@@ -13,16 +13,17 @@
 
 namespace tessera {
 
-// Kernels of pixels with similar features: the 13 of 5x5 pixels with |i| + |j| <= 2, a step apart [the a trous
-// wavelets of Dammertz 2010], whose weight is that of a cubic spline times about
+// Kernels of pixels with similar features, METHODS (43) and (44): the 13 of 5x5 pixels with |i| + |j| <= 2, a step
+// apart [a-trous wavelets, Dammertz 2010]. The weight is that of a cubic spline times about
 //     exp(-sum of (differences of features / widths)^2) .
-// The weight of a pair is the same from both sides.
+// A pair has the same weight from both sides.
 
-/// Features over the widths that GuidedParameters gives. Empty planes: there are none, and all pixels are similar.
+/// Features divided by the widths of GuidedParameters, METHODS (43). Empty planes: unknown, all pixels are
+/// similar.
 inline constexpr int feature_count = 8;
 using FeaturePlanes = std::array<Plane, feature_count>;
 
-/// Kernels at several distances: with five steps, each three times as wide as the last, they reach 240 pixels.
+/// Kernels at five levels, each three times as wide as the last. Together they reach 242 pixels.
 class FeatureKernels {
 public:
     static constexpr std::array steps = {1, 3, 9, 27, 81};
@@ -33,14 +34,14 @@ public:
 
     const FeaturePlanes& features() const { return features_; }
 
-    /// Weights of the pairs that are steps[level] apart.
+    /// Returns the weights of pairs with offsets in units of steps[level].
     const PairWeights& weights(std::size_t level) const { return weights_[level]; }
 
-    /// Replaces values by their means over the kernels of the first levels, one after the other.
+    /// Replaces values by their weighted means over the kernels of the first levels, one after the other.
     void take_means(std::size_t levels, Plane& values, const ParallelFor& parallel_for) const;
 
     std::size_t bytes() const;
-    /// At most.
+    /// Upper limit.
     static constexpr std::size_t bytes_a_pixel =
         steps.size() * kernel_pairs.size() * sizeof(PairWeight) + feature_count * sizeof(float);
 
@@ -49,19 +50,19 @@ private:
     std::array<PairWeights, steps.size()> weights_;
 };
 
-/// Planes of the image's size that weights of a level are made in; any content.
+/// Scratch planes of the image's size, any content.
 struct WeightScratch {
     Plane pairs, rows;
 };
 
-/// Writes the weights of straight pairs for a noisy brightness: the weights by features times about exp(-u), where
-/// u is the mean, over all pairs in the same direction in a square three quarters as wide as the kernel, of the
-/// squared difference of brightness over square_width variances of its noise. Squares decide, as patches do in
-/// non-local means [Buades 2005]: single pixels with much noise do not, and a pattern that noise hides between two
-/// pixels is found.
-/// @param by_features  weights of pairs `step` apart
-/// @param brightness   its logarithm
-/// @param noise        variance of the noise of that
+/// Writes the weights of the pairs in rows and columns for a noisy brightness, METHODS (48) and (49). Each is the
+/// weight by features times about exp(-D / square_width). D is a mean over all pairs with the same offset in a
+/// square three quarters as wide as the kernel: the mean squared difference of brightness over the variance of its
+/// noise. Squares decide, as patches do in non-local means [Buades 2005]. A single noisy pixel does not, and a
+/// pattern that noise hides between two pixels is found.
+/// @param by_features  weights by features of pairs `step` apart
+/// @param brightness   logarithm of the brightness
+/// @param noise        variance of the noise of that logarithm, METHODS (50)
 void write_noisy_weights(const PairWeights& by_features, const Plane& brightness, const Plane& noise, int step,
                          const GuidedParameters& parameters, const ParallelFor& parallel_for,
                          WeightScratch& scratch, StraightWeights& weights);

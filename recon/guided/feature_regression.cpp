@@ -12,13 +12,13 @@ namespace tessera {
 namespace {
 
 constexpr int radius = 2, edge = 2 * radius + 1;
-constexpr int most_terms = feature_count + 1; // the slope in each feature, and then the constant
-constexpr float rounding = 1e-5f; // ridge relative to a feature's own sum of squares, which floats resolve
+constexpr int most_terms = feature_count + 1; // a slope for each feature, and the constant last
+constexpr float rounding = 1e-5f;             // ridge relative to a feature's sum of squares, for precision
 
-/// A part of a row of the picture, from `radius` to the left of lane 0 on; 0 beyond the picture.
-class Stretch {
+/// Window of a row, from `radius` pixels left of lane 0 on; 0 outside the picture.
+class RowWindow {
 public:
-    Stretch(const Plane& plane, int x, int y) : values_(plane.row(y) + x - radius) {
+    RowWindow(const Plane& plane, int x, int y) : values_(plane.row(y) + x - radius) {
         const int begin = std::max(0, radius - x), end = std::min(size, plane.width() - x + radius);
         if (begin == 0 && end == size)
             return;
@@ -26,10 +26,10 @@ public:
         std::copy(values_ + begin, values_ + end, at_border_ + begin);
         values_ = at_border_;
     }
-    Stretch(const Stretch&) = delete;
-    Stretch& operator=(const Stretch&) = delete;
+    RowWindow(const RowWindow&) = delete;
+    RowWindow& operator=(const RowWindow&) = delete;
 
-    /// From i of its numbers on.
+    /// Returns `lanes` numbers from offset i on.
     Lanes from(int i) const { return load(values_ + i); }
 
 private:
@@ -38,22 +38,22 @@ private:
     float at_border_[size];
 };
 
-/// A row of each square: the weights of its pixels, and what they bring: features less those of the middle pixel,
-/// and 1. Rows are taken as a whole, as each sum would else be fetched and put back for each pixel.
+/// One row of the square of each lane: weights w, and regressors f(q) - f(p) and 1 of its pixels. Whole rows are
+/// accumulated at once, so that sums are loaded and stored once for each row.
 struct Row {
-    Lanes weights[edge], brings[edge][most_terms];
+    Lanes weights[edge], regressors[edge][most_terms];
 };
 
-/// Squares around pixels of a row, and their fits.
+/// Squares around `lanes` pixels of a row, and their fits.
 struct Squares {
-    int x, y, begin, end; ///< of lane 0; and the rows that are in the picture
-    int terms; ///< features that vary in any of the squares, beyond the picture counting as 0, and the constant
+    int x, y, begin, end; ///< pixel of lane 0; rows of the square inside the picture
+    int terms;            ///< features that vary in any of the squares (0 outside the picture), and the constant
     Row rows[edge];
-    Lanes matrix[most_terms][most_terms]; ///< of the normal equations: the lower triangle of a symmetric matrix
+    Lanes matrix[most_terms][most_terms]; ///< lower triangle of the normal equations
     Lanes solution[most_terms];
 };
 
-/// Is any of the lanes a number but 0, or none?
+/// Returns whether any lane is not 0 (NaN included).
 bool is_any_set(Lanes values) {
     bool is = false;
     for (int l = 0; l < lanes; ++l)
@@ -61,22 +61,22 @@ bool is_any_set(Lanes values) {
     return is;
 }
 
-/// Writes a feature as term k of the rows. False: it is the same in all of these squares, and has no term.
+/// Writes a feature as regressor k of the rows. Returns false if it is constant in all squares and needs no term.
 bool write_feature(const Plane& feature, int k, Squares& squares) {
-    const Lanes middle = Stretch(feature, squares.x, squares.y).from(radius);
+    const Lanes middle = RowWindow(feature, squares.x, squares.y).from(radius);
     Lanes sizes{};
     for (int y = squares.begin; y < squares.end; ++y) {
         Row& row = squares.rows[y - squares.begin];
-        const Stretch values(feature, squares.x, y);
+        const RowWindow values(feature, squares.x, y);
         for (int p = 0; p < edge; ++p) {
-            row.brings[p][k] = values.from(p) - middle;
-            sizes += row.brings[p][k] * row.brings[p][k];
+            row.regressors[p][k] = values.from(p) - middle;
+            sizes += row.regressors[p][k] * row.regressors[p][k];
         }
     }
     return is_any_set(sizes);
 }
 
-void look_at(const FeaturePlanes& features, const Plane& weights, Squares& squares) {
+void gather_regressors(const FeaturePlanes& features, const Plane& weights, Squares& squares) {
     squares.begin = std::max(0, squares.y - radius);
     squares.end = std::min(squares.y + radius + 1, weights.height());
     int terms = 0;
@@ -85,10 +85,10 @@ void look_at(const FeaturePlanes& features, const Plane& weights, Squares& squar
     squares.terms = terms + 1;
     for (int y = squares.begin; y < squares.end; ++y) {
         Row& row = squares.rows[y - squares.begin];
-        const Stretch weight(weights, squares.x, y);
+        const RowWindow weight(weights, squares.x, y);
         for (int p = 0; p < edge; ++p) {
             row.weights[p] = weight.from(p);
-            row.brings[p][terms] = Lanes{} + 1;
+            row.regressors[p][terms] = Lanes{} + 1;
         }
     }
 }
@@ -97,11 +97,11 @@ void add_row(const Row& row, int terms, Lanes (&matrix)[most_terms][most_terms])
     for (int i = 0; i < terms; ++i) {
         Lanes weighted[edge];
         for (int p = 0; p < edge; ++p)
-            weighted[p] = row.weights[p] * row.brings[p][i];
+            weighted[p] = row.weights[p] * row.regressors[p][i];
         for (int j = 0; j <= i; ++j) {
             Lanes sum = matrix[i][j];
             for (int p = 0; p < edge; ++p)
-                sum += weighted[p] * row.brings[p][j];
+                sum += weighted[p] * row.regressors[p][j];
             matrix[i][j] = sum;
         }
     }
@@ -124,8 +124,8 @@ Lanes root(Lanes values) {
     return values;
 }
 
-/// By Cholesky's decomposition, for the last unit vector: the last row of the inverse says what a is of the
-/// values, sum over q of w_q (solution . what q brings) x_q.
+/// Solves for the last unit vector by Cholesky decomposition. This last row of the inverse gives a as a weighted
+/// sum, a = sum over q of w_q (solution . regressors of q) x_q.
 void solve(Squares& squares) {
     auto& m = squares.matrix;
     const int terms = squares.terms;
@@ -145,30 +145,30 @@ void solve(Squares& squares) {
     }
 }
 
-/// Shares sum to 1 but for rounding, which is made up for. Where features are too large to be squared, a pixel
-/// stays what it is.
+/// Writes a of each pixel. The factors of x_q sum to 1 up to rounding, so they are divided by their sum. Pixels
+/// whose result is not finite keep their value.
 void apply(std::span<const Plane> values, const Squares& squares, std::span<Plane> fitted) {
     const int x = squares.x;
     Lanes all{};
     Lanes own[most_regressed], sums[most_regressed];
     for (std::size_t c = 0; c < values.size(); ++c) {
-        own[c] = Stretch(values[c], x, squares.y).from(radius);
+        own[c] = RowWindow(values[c], x, squares.y).from(radius);
         sums[c] = Lanes{};
     }
     for (int y = squares.begin; y < squares.end; ++y) {
         const Row& row = squares.rows[y - squares.begin];
-        Lanes shares[edge];
+        Lanes factors[edge];
         for (int p = 0; p < edge; ++p) {
-            shares[p] = Lanes{};
+            factors[p] = Lanes{};
             for (int k = 0; k < squares.terms; ++k)
-                shares[p] += squares.solution[k] * row.brings[p][k];
-            shares[p] *= row.weights[p];
-            all += shares[p];
+                factors[p] += squares.solution[k] * row.regressors[p][k];
+            factors[p] *= row.weights[p];
+            all += factors[p];
         }
         for (std::size_t c = 0; c < values.size(); ++c) {
-            const Stretch value(values[c], x, y);
+            const RowWindow value(values[c], x, y);
             for (int p = 0; p < edge; ++p)
-                sums[c] += shares[p] * value.from(p);
+                sums[c] += factors[p] * value.from(p);
         }
     }
     for (std::size_t c = 0; c < values.size(); ++c) {
@@ -183,12 +183,12 @@ void apply(std::span<const Plane> values, const Squares& squares, std::span<Plan
 void write_regressions(std::span<const Plane> values, const FeaturePlanes& features, const Plane& weights,
                        float ridge, const ParallelFor& parallel_for, std::span<Plane> fitted) {
     if (values.size() > most_regressed || fitted.size() != values.size())
-        throw std::invalid_argument("a regression is of six planes at the most, and has as many answers");
+        throw std::invalid_argument("a regression takes at most six planes, and writes as many");
     parallel_for(weights.height(), [&](int y) {
         Squares squares;
         squares.y = y;
         for (squares.x = 0; squares.x < weights.width(); squares.x += lanes) {
-            look_at(features, weights, squares);
+            gather_regressors(features, weights, squares);
             set_up(ridge, squares);
             solve(squares);
             apply(values, squares, fitted);

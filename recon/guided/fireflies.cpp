@@ -13,13 +13,12 @@ namespace tessera {
 
 namespace {
 
-/// Luminance of the mean of a pixel's samples other than the brightest.
+/// Returns o of METHODS (57), the luminance of the mean of a pixel's samples other than the brightest.
 float size_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_t i, float n) {
     return n / (n - 1) * size_of(mean.data()[i] - brightest.data()[i] / n);
 }
 
-/// Returns the luminance of the samples other than the brightest, as a mean over 3x3 pixels. (Beyond 3e37 it is
-/// not finite, and nothing around is clamped.)
+/// Returns the mean of o over 3x3 pixels. It is infinite where luminances exceed 3e37; nothing is clamped there.
 Image<float> others_around(const GradientImages& images, const ParallelFor& parallel_for) {
     Image<float> own(images.primal.width(), images.primal.height(), Unfilled());
     const auto n = static_cast<float>(images.brightest.samples);
@@ -29,19 +28,18 @@ Image<float> others_around(const GradientImages& images, const ParallelFor& para
     return square_means(own, 1, 0, 0, parallel_for);
 }
 
-/// Factors t of a pixel's primal and of its gradients.
+/// Factors t of a pixel's primal and of its gradients, METHODS (56).
 struct Limits {
     float primal = 1, gradients = 1;
 };
 
-/// Returns the factors of pixel i. Where a firefly lights the neighbour alone, gradients are clamped and the
-/// primal is not.
+/// Returns the factors of pixel i. A firefly of a neighbour alone clamps the gradients and not the primal.
 Limits limits_of(const GradientImages& images, float others, const GuidedParameters& parameters, std::size_t i) {
     const BrightestSamples& b = images.brightest;
     const auto n = static_cast<float>(b.samples);
     const float factor = std::max(parameters.firefly_factor, parameters.firefly_fraction * n);
     const auto limit = [factor](float size, float mu) {
-        constexpr float rounding = 1e-6f; // both sides are equal where all samples of a bright pixel are
+        constexpr float rounding = 1e-6f; // both sides are equal if all samples of the pixel are
         return size > factor * mu * (1 + rounding) ? factor * mu / size : 1;
     };
     float mu = std::max(others, parameters.firefly_own * size_of_others(images.primal, b.primal, i, n));
@@ -57,23 +55,22 @@ Limits limits_of(const GradientImages& images, float others, const GuidedParamet
     return limits;
 }
 
-/// Changes a mean of n samples to that with t x in place of x, one of them.
+/// Replaces one sample x of a mean of n samples by t x.
 void limit(Rgb& mean, glm::dvec3 x, double t, double n) {
     mean = Rgb(glm::dvec3(mean) - (1 - t) * x / n);
 }
 
-/// The variance of the mean of n samples with t x in place of x, one of them, over the variance of their mean.
+/// Returns the variance of the mean of n samples after one sample x becomes t x, over the variance before.
 double fraction_of_variance(glm::dvec3 mean, glm::dvec3 x, double variance, double t, double n) {
-    const glm::dvec3 others = (n * mean - x) / (n - 1), now = t * x - others;
+    const glm::dvec3 others = (n * mean - x) / (n - 1), deviation = t * x - others;
     const double all = variance * n * (n - 1);
     const double rest = std::max(all - glm::dot(x - mean, x - mean) * n / (n - 1), 0.0);
-    return all > 0 ? std::min((rest + glm::dot(now, now) * (n - 1) / n) / all, 1.0) : 1;
+    return all > 0 ? std::min((rest + glm::dot(deviation, deviation) * (n - 1) / n) / all, 1.0) : 1;
 }
 
-/// Changes what depends on the clamped sample of pixel i in the images of `result`. With v = a e of the sample,
-/// m(v) and cov(a, v) lose (1 - t) v / n and that times a - m(a): exactly, as the deviations from m(a) sum to
-/// zero. The variance that a does not explain shrinks as all variance does. The other variances stay those of raw
-/// samples.
+/// Applies the clamp to the demodulation of pixel i in `result`. With v = a e of the sample, m(v) loses (1 - t) v
+/// / n, and cov(a, v) loses that times a - m(a). This is exact, since the deviations from m(a) sum to 0. The
+/// variance that a does not explain shrinks as the variance does. Other variances stay those of the raw samples.
 void limit_demodulation(const GradientImages& images, std::size_t i, double t, glm::dvec3 removed,
                         GradientImages& result) {
     const BrightestSamples& b = images.brightest;
@@ -87,13 +84,13 @@ void limit_demodulation(const GradientImages& images, std::size_t i, double t, g
                                  static_cast<double>(images.primal_variance.data()[i]), t, b.samples));
 }
 
-/// The mean radiance that pixel i loses with t.
+/// Returns H of METHODS (58), the mean radiance that pixel i loses with t.
 glm::dvec3 removed_of(const BrightestSamples& b, std::size_t i, double t) {
     const glm::dvec3 a = b.albedo.empty() ? glm::dvec3(1) : glm::dvec3(b.albedo.data()[i]);
     return (1 - t) / b.samples * a * glm::dvec3(b.primal.data()[i]);
 }
 
-/// Clamps the sample in the half differences, in which it has a weight of its own.
+/// Clamps the sample in the half differences, where it is weighted by b.half.
 void limit_halves(HalfDifferences& halves, const BrightestSamples& b, std::size_t i, Limits t) {
     if (halves.empty() || b.half.empty())
         return;
@@ -116,8 +113,8 @@ void for_each_firefly(const GradientImages& images, const GuidedParameters& para
     });
 }
 
-/// Copies the images that clamping changes, and those that the stages after it need beside them.
-GradientImages copied(const GradientImages& images, const ParallelFor& parallel_for) {
+/// Copies the images that clamping changes, and the variances and settings that later stages need.
+GradientImages copy_for_clamping(const GradientImages& images, const ParallelFor& parallel_for) {
     const auto copy = [&](const auto& image) { return copy_of(image, parallel_for); };
     const Demodulation& d = images.demodulation;
     GradientImages result{copy(images.primal), copy(images.dx), copy(images.dy), {}};
@@ -141,7 +138,7 @@ bool can_clamp(const GradientImages& images) {
 ClampedSamples clamp_fireflies(const GradientImages& images, const GuidedParameters& parameters,
                                const ParallelFor& parallel_for) {
     const BrightestSamples& b = images.brightest;
-    ClampedSamples result{copied(images, parallel_for),
+    ClampedSamples result{copy_for_clamping(images, parallel_for),
                           filled_image(images.primal.width(), images.primal.height(), Rgb(0), parallel_for)};
     GradientImages& changed = result.images;
     for_each_firefly(images, parameters, parallel_for, [&](std::size_t i, Limits t) {

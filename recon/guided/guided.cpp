@@ -16,7 +16,8 @@ namespace tessera {
 std::uint64_t GuidedFit::bytes() const {
     const auto bytes_of = [](const auto& image) -> std::uint64_t { return image.size() * sizeof(*image.data()); };
     std::uint64_t sum = (kernels ? kernels->bytes() : 0) + bytes_of(weights.x) + bytes_of(weights.y) +
-                        bytes_of(local) + bytes_of(nearby.brightness) + bytes_of(nearby.around) + bytes_of(filter.regression_trust);
+                        bytes_of(local) + bytes_of(nearby.brightness) + bytes_of(nearby.around) +
+                        bytes_of(filter.regression_trust);
     for (std::size_t l = 0; l < FilterFit::most_levels; ++l) {
         sum += bytes_of(filter.trust[l]);
         for (const Image<PairWeight>& level : filter.weights[l])
@@ -38,9 +39,9 @@ GuidedPicture Guided::picture() {
     if (watch_.is_stopped() || picture.empty())
         return {};
     finish(picture);
-    const double clamped = sum_of_sizes(clamped_.clamped, parallel_for_),
-                 all = clamped > 0 ? sum_of_sizes(raw_.radiance(), parallel_for_) : 0;
-    return {std::move(picture), all > 0 ? clamped / all : 0, iterations_};
+    const double clamped_energy = sum_of_sizes(clamped_.clamped, parallel_for_),
+                 energy = clamped_energy > 0 ? sum_of_sizes(raw_.radiance(), parallel_for_) : 0;
+    return {std::move(picture), energy > 0 ? clamped_energy / energy : 0, iterations_};
 }
 
 void Guided::clamp_samples() {
@@ -54,7 +55,7 @@ void Guided::find_features() {
                              parallel_for_);
 }
 
-/// Makes the picture of the primal, or of primal and gradients: of the coefficient, where there is one.
+/// Stage 3. Returns the picture of the coefficient, or of the radiance without a basis. Empty: stopped.
 RgbImage Guided::solve() {
     if (!solves())
         return copy_of(images().primal, parallel_for_);
@@ -69,7 +70,7 @@ RgbImage Guided::solve() {
     return watch_.is_stopped() ? RgbImage() : std::move(picture);
 }
 
-/// Solvers go below black beside strong edges; radiance does so only where the primal does.
+/// Stage 4. Raises radiance below min(m(v), 0) to it, since solvers go below black beside strong edges.
 void Guided::remodulate(RgbImage& picture) const {
     if (!images().demodulation.empty())
         tessera::remodulate(images(), parameters_, picture, parallel_for_);
@@ -94,8 +95,8 @@ void Guided::redistribute(RgbImage& picture) {
                                         fit_.local, parameters_, parallel_for_, picture);
 }
 
-/// Makes the noise of the picture, radiance: what the same equations make of the half differences, with the
-/// clamped energy that is in one half or the other.
+/// Returns the noise N of the picture, as radiance: the solver's answer for the half differences, plus the
+/// redistributed energy with its sign in the half differences.
 RgbImage Guided::noise() {
     RgbImage noise;
     if (solves())
@@ -114,7 +115,7 @@ RgbImage Guided::noise() {
     return noise;
 }
 
-/// Leaves an empty picture where it is stopped.
+/// Stages 6 and 7. Leaves an empty picture if stopped.
 void Guided::filter(RgbImage& picture) {
     NoisyPicture noisy{std::move(picture), {}};
     if (!is_fitted_)
@@ -125,8 +126,8 @@ void Guided::filter(RgbImage& picture) {
                                         .image;
 }
 
-/// Redistribution and filter leave nothing where a pixel sees nothing and no sample has found light; filters may go
-/// below black beside strong edges.
+/// Raises radiance below min(m(v), 0) to it, and blackens pixels that see no surface and in which no sample found
+/// light.
 void Guided::finish(RgbImage& picture) const {
     const bool has_features = !raw_.features.empty();
     const RgbImage& primal = images().radiance();

@@ -16,7 +16,8 @@ namespace tessera {
 
 class PictureSolvers;
 
-// Tessera's denoiser: `guided` for methods with gradients, `smoothed` for the primal alone. Its stages, in order:
+// Tessera's denoiser, METHODS (41) to (60): `guided` for methods with gradients, `smoothed` for the primal alone.
+// Its stages:
 //   1 fireflies       clamps the brightest sample of each pixel                      (fireflies.h)
 //   2 edge weights    weights gradients by their variances; guided only              (edge_weights.h)
 //   3 solve           weighted screened Poisson, of the picture and of its noise; guided only (poisson_weighted.h)
@@ -26,28 +27,28 @@ class PictureSolvers;
 //   7 regression      fits radiance to features, against the noise of edges          (feature_regression.h)
 // Stages 6 and 7 need features and half differences, and are left out without these.
 
-/// What the stages find about a picture beside its light. A picture of nearly the same samples can be made with
-/// it, in half of the time or less (incremental reconstruction).
+/// Data of the stages that hardly change from one picture to the next, such as kernels and weights. A picture of
+/// nearly the same samples takes half of the time or less with it (incremental reconstruction).
 struct GuidedFit {
     std::optional<FeatureKernels> kernels;
     EdgeWeights weights;
-    Image<float> local; ///< local_mean_brightness() of the light
+    Image<float> local; ///< L of METHODS (42)
     NearbyBrightness nearby;
     FilterFit filter;
 
     std::uint64_t bytes() const;
-    /// At most, beside the kernels.
+    /// Upper limit, without the kernels.
     static constexpr std::uint64_t bytes_a_pixel = FilterFit::bytes_a_pixel + 5 * sizeof(float);
 };
 
-/// The picture that the stages make; without directly visible emission. Empty: stopped.
+/// Result of the stages, without directly visible emission. An empty image: stopped.
 struct GuidedPicture {
     RgbImage image;
     double redistributed = 0; ///< fraction of the raw radiance's energy that was clamped and redistributed
     int iterations = 0;       ///< steps of the solver
 };
 
-/// Runs the stages on one picture. Its parts are called in the order of the stages.
+/// Runs the stages on one picture. The member functions are called in the order of the stages.
 class Guided {
 public:
     /// Keeps references to all arguments.
@@ -83,11 +84,11 @@ private:
     const ParallelFor& parallel_for_;
     const SolveWatch& watch_;
 
-    ClampedSamples clamped_; ///< empty where no firefly can be found
+    ClampedSamples clamped_; ///< empty if fireflies cannot be clamped
     int iterations_ = 0;
 };
 
-/// Bytes that a picture takes beside its samples, its solvers and a fit.
+/// Returns the bytes that a picture takes without its samples, its solvers and a fit.
 std::uint64_t bytes_for_guided(int width, int height, bool has_gradients, bool is_demodulated);
 
 } // namespace tessera

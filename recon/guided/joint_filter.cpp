@@ -17,17 +17,18 @@ namespace tessera {
 
 namespace {
 
-/// Whether all channels are so small that sums and products of a kernel's size stay finite.
+/// Returns whether all channels are so small that sums and products of a kernel stay finite.
 bool can_be_filtered(const RgbImage& image, const ParallelFor& parallel_for) {
-    constexpr float most = 1e28f;
+    constexpr float largest = 1e28f;
     const auto is_large = [&](std::size_t i) {
         const Rgb c = image.data()[i];
-        return !(std::abs(c.r) < most && std::abs(c.g) < most && std::abs(c.b) < most);
+        return !(std::abs(c.r) < largest && std::abs(c.g) < largest && std::abs(c.b) < largest);
     };
     return sum_over_pixels(image.width(), image.height(), parallel_for, is_large) == 0;
 }
 
-/// Filters planes of the picture alone, or of the picture and its noise: the latter finds the fit.
+/// Filters planes of the picture with a known fit (Planes), or of picture and noise, which finds the fit
+/// (NoisyPlanes).
 template <class AnyPlanes>
 class Filter {
     static constexpr bool has_noise = std::is_same_v<AnyPlanes, NoisyPlanes>;
@@ -46,7 +47,8 @@ public:
                 *plane = Plane(width_, height_, Unfilled());
     }
 
-    /// Makes light the sum of its last level and the trusted differences of all levels. False: stopped.
+    /// Replaces light by its last level plus the trusted differences of all levels, METHODS (51). Returns false if
+    /// stopped.
     bool filter_levels(AnyPlanes& light, const SolveWatch& watch) {
         auto differences = black_planes<AnyPlanes>(width_, height_, parallel_for_);
         const std::size_t levels = std::min(parameters_.levels, FilterFit::most_levels);
@@ -69,7 +71,7 @@ public:
         return watch.goes_on(static_cast<int>(levels), static_cast<int>(levels) + 1);
     }
 
-    /// Multiplies light, and what is added to its brightness, by the albedo of the features: it becomes radiance.
+    /// Multiplies light and dark_ by the albedo of the features: light becomes radiance.
     void make_radiance(const FeatureImages& features, AnyPlanes& light) {
         for_pixels(width_, height_, parallel_for_, [&](std::size_t i) {
             const Rgb albedo = seen_albedo(features, i, parameters_.least_albedo);
@@ -79,7 +81,7 @@ public:
         });
     }
 
-    /// Replaces radiance by its regression on features, and the trusted difference to it.
+    /// Replaces radiance by its regression on features plus the trusted difference to it, METHODS (55).
     void regress(AnyPlanes& radiance) {
         Plane weights(width_, height_, Unfilled()), rows(width_, height_, Unfilled());
         write_relative_weights(radiance, weights, rows);
@@ -91,7 +93,7 @@ public:
     }
 
 private:
-    /// Finds how much the pixels of a level count for each other.
+    /// Finds the kernel weights of a level, METHODS (48) to (50).
     void find_weights(const NoisyPlanes& light, std::size_t level) {
         const int step = FeatureKernels::steps[level];
         Plane& noise = shrinkage_.noise;
@@ -103,8 +105,8 @@ private:
         });
         take_wide_means(noise, parameters_.noise_radius + step, shrinkage_.rows, parallel_for_);
         for_pixels(width_, height_, parallel_for_, [&](std::size_t i) {
-            constexpr float of_gaussian = std::numbers::pi_v<float> / 2; // variance over squared mean of |noise|
-            noise.data()[i] *= of_gaussian * noise.data()[i];
+            constexpr float gaussian_variance = std::numbers::pi_v<float> / 2; // over squared mean of |noise|
+            noise.data()[i] *= gaussian_variance * noise.data()[i];
         });
         make_planes(fit_.weights[level], width_, height_);
         write_noisy_weights(kernels_.weights(level), brightness_, noise, step, parameters_, parallel_for_,
@@ -116,12 +118,12 @@ private:
         write_trust(finer, coarser_, dark_, radius, parallel_for_, shrinkage_, trust);
     }
 
-    /// Writes one over the square of the brightness around each pixel, so that relative errors count. The
-    /// brightness of the pixel alone would give pixels that noise makes dark more weight, and darken the picture.
+    /// Writes the weights of METHODS (54), the inverse squared mean brightness around each pixel, so that relative
+    /// errors count. The pixel's own brightness would favour pixels that noise makes dark, and darken the picture.
     void write_relative_weights(const AnyPlanes& radiance, Plane& weights, Plane& rows) {
         for_pixels(width_, height_, parallel_for_,
                    [&](std::size_t i) { weights.data()[i] = brightness_at(radiance, dark_.data()[i], i); });
-        constexpr int radius = 2; // of the squares of the regression
+        constexpr int radius = 2; // of the regression's squares
         take_wide_means(weights, radius, rows, parallel_for_);
         for_pixels(width_, height_, parallel_for_, [&](std::size_t i) {
             const float least = parameters_.dark * parameters_.least_albedo * local_.data()[i];
@@ -136,7 +138,7 @@ private:
     FilterFit& fit_;
     const ParallelFor& parallel_for_;
     int width_, height_;
-    Plane dark_; ///< what is added to brightness
+    Plane dark_; ///< `dark` L, which is added to brightness
     AnyPlanes coarser_;
     Plane brightness_;
     WeightScratch weight_scratch_;
@@ -178,7 +180,7 @@ NoisyPicture filter(NoisyPicture picture, const FeatureImages& features, const F
 
 std::uint64_t bytes_to_filter(int width, int height) {
     constexpr std::uint64_t planes =
-        3 * std::tuple_size_v<NoisyPlanes> + 7; // light, differences, coarser, scratch
+        3 * std::tuple_size_v<NoisyPlanes> + 7; // light, differences, coarser and scratch
     return planes * sizeof(float) * static_cast<std::uint64_t>(width) * height;
 }
 

@@ -1,4 +1,4 @@
-// Weighted sums over the pixels of small kernels, whose pixels may be far apart.
+// Weighted sums over the sparse kernels of the a-trous levels.
 #pragma once
 
 #include "recon/image.h"
@@ -15,15 +15,15 @@ namespace tessera {
 
 using Plane = Image<float>;
 
-/// Planes of a size, with anything in them.
+/// Gives all planes a size and leaves their pixels uninitialised.
 template <class Number, std::size_t count>
 void make_planes(std::array<Image<Number>, count>& planes, int width, int height) {
     for (Image<Number>& plane : planes)
         plane = Image<Number>(width, height, Unfilled());
 }
 
-/// A pixel and another, i and j steps on; of a kernel's pixels but the middle one, half: the others are these from
-/// their other end. (With all of 5x5: hardly better, in twice the time.)
+/// Offset of a pixel pair, in steps. A kernel lists half of its offsets without the centre; the other half are the
+/// same pairs seen from the second pixel.
 struct KernelPair {
     int i, j;
 
@@ -33,34 +33,33 @@ struct KernelPair {
     }
 };
 inline constexpr std::array<KernelPair, 6> kernel_pairs = {{{1, 0}, {2, 0}, {0, 1}, {0, 2}, {1, 1}, {-1, 1}}};
-// The first of these, of a row or a column. Smoothing has no more: with all, no less error.
+// Number of leading pairs that lie in a row or a column. The filter uses these alone.
 inline constexpr std::size_t straight_pairs = 4;
 
-/// How much of a pair's share its two pixels count for each other, or those of the first pairs, at the first of
-/// the two: most_weight is all, 0 nothing. A byte, as kernels take as long as their memory does. What stands for a
-/// pair that reaches beyond the picture does not matter.
+/// Weight of a pair relative to its spline weight, from 0 to most_weight (1), stored at the pair's first pixel. It
+/// is a byte, since memory bandwidth limits the kernels. Weights of pairs that cross the border are never read.
 using PairWeight = std::uint8_t;
 inline constexpr float most_weight = 255;
 using PairWeights = std::array<Image<PairWeight>, kernel_pairs.size()>;
 using StraightWeights = std::array<Image<PairWeight>, straight_pairs>;
 
-/// @param part  of the pair's share, in [0, 1]
-inline PairWeight pair_weight(float part) {
-    return static_cast<PairWeight>(static_cast<int>(part * most_weight + 0.5f));
+/// @param similarity  relative weight in [0, 1]
+inline PairWeight pair_weight(float similarity) {
+    return static_cast<PairWeight>(static_cast<int>(similarity * most_weight + 0.5f));
 }
 
-/// Columns that are worked on at a time, so that all about them stays at hand.
+/// Columns that are processed at a time, so that their data stay in the cache.
 inline constexpr int kernel_chunk = 512;
 
-/// Pixels that the kernels of a row take: those `shift` columns on in a row, whose weights stand `place` columns
-/// on in another and are to be multiplied by `scale`.
+/// One kernel offset for a row of pixels: values are `shift` columns further in row `row`, and their weights, to
+/// be multiplied by `scale`, `weight_shift` columns further.
 struct KernelTap {
     const PairWeight* weights; ///< null: all are 1
     float scale;
-    int row, shift, place;
+    int row, shift, weight_shift;
 };
 
-/// The taps of a row, first the row's own pixels: those in rows beyond the picture are left out.
+/// Taps of row y, the centre first. Rows outside the picture are left out.
 class KernelTaps {
 public:
     KernelTaps(std::span<const Image<PairWeight>> weights, int step, int y) {
@@ -86,7 +85,7 @@ private:
     int count_ = 1;
 };
 
-/// Values times weights, summed over the kernels around the pixels [begin, end) of a row.
+/// Weighted sums of values over the kernels around the pixels [begin, end) of a row.
 template <std::size_t planes>
 class KernelSums {
 public:
@@ -101,57 +100,57 @@ public:
             sum_up(&from[c], values[c]);
     }
 
-    /// Writes the sums of the weights alone, of as many pixels.
+    /// Writes the sums of the weights for the same pixels.
     void write_weights(float* sums) const { sum_up(nullptr, sums); }
 
 private:
-    /// Of a tap: the pixels [begin, end) that have it, from the row's `begin` on, and the place of the first one's
-    /// value.
-    struct Part {
+    /// A tap of this chunk: the pixels [begin, end), relative to the chunk, whose tap lies inside the picture, and
+    /// row and column of the value for relative pixel 0.
+    struct ChunkTap {
         int begin, end, row, column;
         float weights[kernel_chunk];
     };
 
-    /// Weights are made numbers once for all planes.
+    /// Converts the weights of a tap to floats, once for all planes.
     void add(const KernelTap& tap) {
-        Part& part = parts_[count_];
-        part.begin = std::max(0, -tap.shift - begin);
-        part.end = std::min(end, width_ - tap.shift) - begin;
-        if (part.begin >= part.end)
+        ChunkTap& chunk_tap = chunk_taps_[count_];
+        chunk_tap.begin = std::max(0, -tap.shift - begin);
+        chunk_tap.end = std::min(end, width_ - tap.shift) - begin;
+        if (chunk_tap.begin >= chunk_tap.end)
             return;
         ++count_;
-        part.row = tap.row;
-        part.column = begin + tap.shift;
-        const int first = begin + tap.place;
-        for (int i = part.begin; i < part.end; ++i)
-            part.weights[i] = tap.scale * (tap.weights ? static_cast<float>(tap.weights[first + i]) : 1);
+        chunk_tap.row = tap.row;
+        chunk_tap.column = begin + tap.shift;
+        const int first = begin + tap.weight_shift;
+        for (int i = chunk_tap.begin; i < chunk_tap.end; ++i)
+            chunk_tap.weights[i] = tap.scale * (tap.weights ? static_cast<float>(tap.weights[first + i]) : 1);
     }
 
-    /// Sums are made in registers where all pixels have a tap, and taps beyond the row's ends follow for those
-    /// that do. (A tap at a time for all planes, sums would be fetched and put back for each: 1.1 to 1.5 times the
-    /// time.)
-    /// @param plane  null: ones
+    /// Sums in registers over the taps that all pixels of the chunk have, then adds the taps that some pixels
+    /// lack. A loop over taps outside would load and store each sum once for each tap.
+    /// @param plane  null: all values are 1
     void sum_up(const Plane* plane, float* sums) const {
         Term terms[KernelTaps::most];
         int count = 0;
-        for (const Part* part = parts_; part != parts_ + count_; ++part)
-            if (is_whole(*part))
-                terms[count++] = {part->weights, plane ? plane->row(part->row) + part->column : nullptr};
+        for (const ChunkTap* chunk_tap = chunk_taps_; chunk_tap != chunk_taps_ + count_; ++chunk_tap)
+            if (is_whole(*chunk_tap))
+                terms[count++] = {chunk_tap->weights,
+                                  plane ? plane->row(chunk_tap->row) + chunk_tap->column : nullptr};
         sum_up(terms, count, sums);
-        for (const Part* part = parts_; part != parts_ + count_; ++part) {
-            if (is_whole(*part))
+        for (const ChunkTap* chunk_tap = chunk_taps_; chunk_tap != chunk_taps_ + count_; ++chunk_tap) {
+            if (is_whole(*chunk_tap))
                 continue;
-            const float* row = plane ? plane->row(part->row) : nullptr;
-            for (int i = part->begin; i < part->end; ++i)
-                sums[i] += part->weights[i] * (row ? row[part->column + i] : 1);
+            const float* row = plane ? plane->row(chunk_tap->row) : nullptr;
+            for (int i = chunk_tap->begin; i < chunk_tap->end; ++i)
+                sums[i] += chunk_tap->weights[i] * (row ? row[chunk_tap->column + i] : 1);
         }
     }
 
-    bool is_whole(const Part& part) const { return part.begin == 0 && part.end == end - begin; }
+    bool is_whole(const ChunkTap& chunk_tap) const { return chunk_tap.begin == 0 && chunk_tap.end == end - begin; }
 
-    /// Of a tap that all pixels have.
+    /// A tap that all pixels of the chunk have.
     struct Term {
-        const float *weights, *values; ///< null: ones
+        const float *weights, *values; ///< values null: all are 1
     };
 
     void sum_up(const Term* terms, int count, float* sums) const {
@@ -179,10 +178,10 @@ private:
     }
 
     int width_, count_ = 0;
-    Part parts_[KernelTaps::most];
+    ChunkTap chunk_taps_[KernelTaps::most];
 };
 
-/// Calls visit(y, sums) for all pixels, some of a row at a time.
+/// Calls visit(y, sums) for all pixels, a chunk of a row at a time.
 template <std::size_t planes, class Visit>
 void for_kernel_sums(const std::array<Plane, planes>& from, std::span<const Image<PairWeight>> weights, int step,
                      const ParallelFor& parallel_for, Visit&& visit) {
@@ -194,17 +193,17 @@ void for_kernel_sums(const std::array<Plane, planes>& from, std::span<const Imag
     });
 }
 
-/// The means over the kernels around all pixels, by their weights.
-/// @param means  of the same size, anything
+/// Writes the weighted mean over the kernel of each pixel.
+/// @param means  planes of the same size, any content
 template <std::size_t planes>
 void write_kernel_means(const std::array<Plane, planes>& from, std::span<const Image<PairWeight>> weights,
                         int step, const ParallelFor& parallel_for, std::array<Plane, planes>& means) {
     for_kernel_sums(from, weights, step, parallel_for, [&](int y, const auto& sums) {
-        float of_weights[kernel_chunk];
-        sums.write_weights(of_weights);
+        float weight_sums[kernel_chunk];
+        sums.write_weights(weight_sums);
         for (std::size_t c = 0; c < planes; ++c)
             for (int x = sums.begin; x < sums.end; ++x)
-                means[c](x, y) = sums.values[c][x - sums.begin] / of_weights[x - sums.begin];
+                means[c](x, y) = sums.values[c][x - sums.begin] / weight_sums[x - sums.begin];
     });
 }
 

@@ -1,4 +1,4 @@
-// Pictures as planes, one a channel, on which the filter and the regression work.
+// Pictures as planes, one for each channel, for the filter and the regression.
 #pragma once
 
 #include "recon/guided/kernel_sums.h"
@@ -12,11 +12,11 @@
 
 namespace tessera {
 
-/// Three channels of a picture; or these and then three of its noise, to which the same is done.
+/// Three channels of a picture; NoisyPlanes has three channels of its noise N after them.
 using Planes = std::array<Plane, 3>;
 using NoisyPlanes = std::array<Plane, 6>;
 
-/// A picture, and a sample of the noise that it has; an empty noise is not known.
+/// Picture and its noise N, METHODS (41). Empty noise: unknown.
 struct NoisyPicture {
     RgbImage image, noise;
 };
@@ -29,7 +29,7 @@ AnyPlanes black_planes(int width, int height, const ParallelFor& parallel_for) {
     return planes;
 }
 
-/// Writes radiance over albedo of an image to three planes from `first` on.
+/// Writes radiance / albedo to three planes from `first` on.
 template <class AnyPlanes>
 void write_light(const RgbImage& radiance, const FeatureImages& features, float least_albedo, std::size_t first,
                  const ParallelFor& parallel_for, AnyPlanes& planes) {
@@ -40,19 +40,19 @@ void write_light(const RgbImage& radiance, const FeatureImages& features, float 
     });
 }
 
-/// The mean of three channels at pixel i, of the picture (first = 0) or of its noise (first = 3).
+/// Returns the mean of three channels at pixel i, of the picture (first = 0) or of its noise (first = 3).
 template <class AnyPlanes>
 float mean_of(const AnyPlanes& planes, std::size_t first, std::size_t i) {
     return (planes[first].data()[i] + planes[first + 1].data()[i] + planes[first + 2].data()[i]) / 3;
 }
 
-/// Brightness of pixel i, plus `least`.
+/// Returns the brightness of pixel i plus `dark`.
 template <class AnyPlanes>
-float brightness_at(const AnyPlanes& planes, float least, std::size_t i) {
-    return std::max(mean_of(planes, 0, i), 0.0f) + least;
+float brightness_at(const AnyPlanes& planes, float dark, std::size_t i) {
+    return std::max(mean_of(planes, 0, i), 0.0f) + dark;
 }
 
-/// Adds trust (finer - coarser) to the sum, which may be `coarser` itself.
+/// Adds trust (finer - coarser) to `sum`, METHODS (51). `sum` may be `coarser` itself.
 template <class AnyPlanes>
 void add_difference(const Plane& trust, const AnyPlanes& finer, const AnyPlanes& coarser,
                     const ParallelFor& parallel_for, AnyPlanes& sum) {
@@ -64,7 +64,7 @@ void add_difference(const Plane& trust, const AnyPlanes& finer, const AnyPlanes&
     });
 }
 
-/// Writes three planes from `first` on to an image.
+/// Copies three planes from `first` on to an image.
 template <class AnyPlanes>
 void write_image(const AnyPlanes& planes, std::size_t first, const ParallelFor& parallel_for, RgbImage& image) {
     for_pixels(image.width(), image.height(), parallel_for, [&](std::size_t i) {

@@ -21,7 +21,7 @@ namespace {
 
 using Channels = std::array<Plane, 3>;
 
-/// Limits a brightness so that sums and products stay finite; values that are not finite become large.
+/// Limits a brightness to 1e20, so that sums and products stay finite. NaN becomes 1e20.
 float limited(float brightness) {
     constexpr float largest = 1e20f;
     return brightness < largest ? brightness : largest;
@@ -36,10 +36,10 @@ void set_colour(Channels& channels, std::size_t i, Rgb colour) {
         channels[c].data()[i] = colour[c];
 }
 
-/// Raises a local mean brightness to 1e-6 of the local mean of the energy, so that quotients of the two stay
-/// finite in black nearby.
-Image<float> at_least_of_energy(const Image<float>& local_light, const RgbImage& energy, int radius,
-                                const ParallelFor& parallel_for) {
+/// Returns a local mean brightness of at least 1e-6 of the local mean energy, so that quotients of the two stay
+/// finite in black regions.
+Image<float> raised_to_energy(const Image<float>& local_light, const RgbImage& energy, int radius,
+                              const ParallelFor& parallel_for) {
     Image<float> local(energy.width(), energy.height(), Unfilled());
     for_pixels(energy.width(), energy.height(), parallel_for,
                [&](std::size_t i) { local.data()[i] = size_of(energy.data()[i]); });
@@ -49,7 +49,7 @@ Image<float> at_least_of_energy(const Image<float>& local_light, const RgbImage&
     return local;
 }
 
-/// Returns S: albedo times light, plus `dark` of the local mean.
+/// Returns S of METHODS (60).
 Channels followed_brightness(const RgbImage& picture, const FeatureImages& features, const Image<float>& local,
                              const GuidedParameters& parameters, const ParallelFor& parallel_for) {
     Channels brightness;
@@ -62,8 +62,8 @@ Channels followed_brightness(const RgbImage& picture, const FeatureImages& featu
     return brightness;
 }
 
-/// Makes H S K(H / K(S)), with the K of one level.
-/// @param ratio  of the same size, any content
+/// Replaces H by S K(H / K(S)), METHODS (59), with the K of one level.
+/// @param ratio  scratch planes, any content
 void spread_one_level(const Channels& brightness, const PairWeights& weights, int step,
                       const ParallelFor& parallel_for, Channels& energy, Channels& ratio) {
     for_kernel_sums(brightness, weights, step, parallel_for, [&](int y, const auto& sums) {
@@ -78,7 +78,7 @@ void spread_one_level(const Channels& brightness, const PairWeights& weights, in
     });
 }
 
-/// Spreads energy over pixels with similar features, and leaves in `energy` what exceeds most_added of S.
+/// Adds energy to pixels with similar features, and leaves in `energy` what exceeds most_added of S.
 void spread_to_similar(const Channels& brightness, const FeatureKernels& kernels,
                        const GuidedParameters& parameters, const ParallelFor& parallel_for, RgbImage& energy,
                        RgbImage& picture) {
@@ -99,7 +99,7 @@ void spread_to_similar(const Channels& brightness, const FeatureKernels& kernels
     });
 }
 
-/// Writes a row and what lies `reach` pixels beyond its ends: the picture goes on as in a mirror.
+/// Writes a row that is extended by `reach` mirrored pixels at both ends.
 template <class Pixel>
 void mirror_row(const Pixel* row, int width, int reach, Pixel* out) {
     for (int i = -reach; i < width + reach; ++i)
@@ -117,13 +117,13 @@ float* numbers_of(Rgb* pixels) {
     return &pixels->x;
 }
 
-/// Three means over squares, about a Gaussian. The kernel is symmetric.
+/// Takes the mean over squares three times, which is close to a Gaussian. The kernel is symmetric.
 template <class Pixel>
 void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
     constexpr std::size_t channels = sizeof(Pixel) / sizeof(float);
     const int width = image.width(), height = image.height();
     const int r_x = std::min(radius, width - 1), r_y = std::min(radius, height - 1);
-    const float share = 1 / static_cast<float>((2 * r_x + 1) * (2 * r_y + 1));
+    const float inverse_area = 1 / static_cast<float>((2 * r_x + 1) * (2 * r_y + 1));
     const std::size_t row_numbers = channels * static_cast<std::size_t>(width);
     Image<Pixel> other(width, height, Unfilled());
     for (int round = 0; round < 3; ++round) {
@@ -137,12 +137,12 @@ void blur(Image<Pixel>& image, int radius, const ParallelFor& parallel_for) {
                          [&](int y, std::size_t begin, std::size_t end, const float* sums) {
                              float* means = numbers_of(image.row(y));
                              for (std::size_t i = begin; i < end; ++i)
-                                 means[i] = share * sums[i - begin];
+                                 means[i] = inverse_area * sums[i - begin];
                          });
     }
 }
 
-/// Brightness of the pixels similar to each, and its mean around.
+/// Returns the mean brightness of the pixels similar to each, and its blur.
 NearbyBrightness nearby_brightness(const RgbImage& picture, const FeatureKernels& kernels,
                                    const Image<float>& local, const GuidedParameters& parameters,
                                    const ParallelFor& parallel_for) {
@@ -177,7 +177,7 @@ NearbyBrightness redistribute(RgbImage energy, const FeatureKernels& kernels, co
                               const ParallelFor& parallel_for, RgbImage& picture) {
     if (!(sum_of_sizes(energy, parallel_for) > 0))
         return {};
-    const Image<float> local = at_least_of_energy(local_light, energy, parameters.local_radius, parallel_for);
+    const Image<float> local = raised_to_energy(local_light, energy, parameters.local_radius, parallel_for);
     spread_to_similar(followed_brightness(picture, features, local, parameters, parallel_for), kernels, parameters,
                       parallel_for, energy, picture);
     NearbyBrightness nearby = nearby_brightness(picture, kernels, local, parameters, parallel_for);

@@ -10,7 +10,7 @@ namespace tessera {
 
 namespace {
 
-/// Writes the roots of the sizes of finer - coarser, of the picture and of its noise.
+/// Writes |finer - coarser|^1/2 over brightness^1/2, of the picture and of its noise.
 void write_root_sizes(const NoisyPlanes& finer, const NoisyPlanes& coarser, const Plane& dark,
                       const ParallelFor& parallel_for, Plane& sizes, Plane& noise) {
     const int width = sizes.width();
@@ -18,22 +18,22 @@ void write_root_sizes(const NoisyPlanes& finer, const NoisyPlanes& coarser, cons
         for (int x = 0; x < width; x += kernel_chunk) {
             const int count = std::min(kernel_chunk, width - x);
             const std::size_t place = static_cast<std::size_t>(y) * width + x;
-            float bright[kernel_chunk], squares[2][kernel_chunk] = {};
+            float inverse_brightness[kernel_chunk], squares[2][kernel_chunk] = {};
             for (int i = 0; i < count; ++i)
-                bright[i] = 1 / brightness_at(coarser, dark.data()[place + i], place + i);
+                inverse_brightness[i] = 1 / brightness_at(coarser, dark.data()[place + i], place + i);
             for (std::size_t c = 0; c < finer.size(); ++c) {
-                constexpr float largest = 1e18f; // squares stay finite
+                constexpr float largest = 1e18f; // its square stays finite
                 const float *fine = finer[c].row(y) + x, *coarse = coarser[c].row(y) + x;
                 float* sum = squares[c / 3];
                 for (int i = 0; i < count; ++i) {
-                    const float d = std::min(std::abs(fine[i] - coarse[i]) * bright[i], largest);
+                    const float d = std::min(std::abs(fine[i] - coarse[i]) * inverse_brightness[i], largest);
                     sum[i] += d * d;
                 }
             }
-            float *size = sizes.row(y) + x, *of_noise = noise.row(y) + x;
+            float *size = sizes.row(y) + x, *noise_size = noise.row(y) + x;
             for (int i = 0; i < count; ++i) {
                 size[i] = std::sqrt(std::sqrt(squares[0][i]));
-                of_noise[i] = std::sqrt(std::sqrt(squares[1][i]));
+                noise_size[i] = std::sqrt(std::sqrt(squares[1][i]));
             }
         }
     });

@@ -11,10 +11,10 @@ namespace tessera {
 
 namespace {
 
-constexpr double least_share = 0.01; // of the mean luminance, that a pixel's counts as at least
+constexpr double mean_fraction = 0.01; // of the mean luminance, added to a pixel's luminance
 
-/// A mean of n samples, its variance (null: unknown) and the sample x, which becomes the mean of the others: with
-/// S the sum of squares, the variance is (S - n mean^2) / (n (n - 1)).
+/// Replaces the sample x of a mean of n samples, and x itself, by the mean of the others. The variance (null:
+/// unknown) changes accordingly: with S the sum of squares, it is (S - n mean^2) / (n (n - 1)).
 void replace(Rgb& mean, float* variance, Rgb& sample, int samples) {
     const double n = samples;
     const glm::dvec3 m(mean), x(sample), others = (n * m - x) / (n - 1);
@@ -30,7 +30,7 @@ float* at(Image<float>& variances, std::size_t i) {
     return variances.empty() ? nullptr : variances.data() + i;
 }
 
-/// The half differences with the mean of the others in place of the brightest sample x, too.
+/// Replaces the brightest sample x by the mean of the others in the half differences.
 void replace_in_halves(RgbImage& half, const RgbImage& mean, const RgbImage& x, const BrightestSamples& b,
                        std::size_t i) {
     if (half.empty() || b.half.empty())
@@ -44,28 +44,28 @@ void replace_in_halves(RgbImage& half, const RgbImage& mean, const RgbImage& x, 
 void replace_primal(GradientImages& images, std::size_t i) {
     BrightestSamples& b = images.brightest;
     replace_in_halves(images.halves.primal, images.primal, b.primal, b, i);
-    const glm::dvec3 before(images.primal.data()[i]);
+    const glm::dvec3 old_mean(images.primal.data()[i]);
     replace(images.primal.data()[i], at(images.primal_variance, i), b.primal.data()[i], b.samples);
     Demodulation& d = images.demodulation;
     if (d.empty())
         return;
-    const glm::dvec3 a(b.albedo.data()[i]), less = a * (before - glm::dvec3(images.primal.data()[i]));
-    d.value.data()[i] = Rgb(glm::dvec3(d.value.data()[i]) - less);
+    const glm::dvec3 a(b.albedo.data()[i]), removed = a * (old_mean - glm::dvec3(images.primal.data()[i]));
+    d.value.data()[i] = Rgb(glm::dvec3(d.value.data()[i]) - removed);
     d.value_covariance.data()[i] =
-        Rgb(glm::dvec3(d.value_covariance.data()[i]) - less * (a - glm::dvec3(d.sampled_albedo.data()[i])));
+        Rgb(glm::dvec3(d.value_covariance.data()[i]) - removed * (a - glm::dvec3(d.sampled_albedo.data()[i])));
 }
 
 double light_of(const GradientImages& images, std::size_t i) {
     return static_cast<double>(luminance(images.radiance().data()[i]));
 }
 
-/// By how much the brightest sample moves the radiance of pixel i.
+/// Returns the luminance by which the brightest sample raises the radiance of pixel i.
 double excess(const GradientImages& images, std::size_t i) {
     const BrightestSamples& b = images.brightest;
     const double n = b.samples;
     const glm::dvec3 a = b.albedo.empty() ? glm::dvec3(1) : glm::dvec3(b.albedo.data()[i]);
     const glm::dvec3 x(b.primal.data()[i]), mean(images.primal.data()[i]);
-    return static_cast<double>(luminance(Rgb(a * (x - mean) / (n - 1)))); // x - (mean of others), over n
+    return static_cast<double>(luminance(Rgb(a * (x - mean) / (n - 1)))); // (x - mean of others) / n
 }
 
 } // namespace
@@ -74,7 +74,7 @@ GradientImages without_brightest(const GradientImages& images, PixelRect square)
     GradientImages result = images;
     BrightestSamples& b = result.brightest;
     const PixelRect inside = square.clipped({images.primal.width(), images.primal.height()});
-    // Gradients lead into the square from the pixels on its left and above, too.
+    // Gradients of the pixels to the left of the square and above it lead into it.
     for (int y = std::max(inside.y0 - 1, 0); y < inside.y1; ++y)
         for (int x = std::max(inside.x0 - 1, 0); x < inside.x1; ++x) {
             const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(images.primal.width()) +
@@ -126,7 +126,7 @@ std::optional<Halo> measure_halo(const GradientImages& images, const Reconstruct
         const double brightness = std::max(static_cast<double>(luminance(picture.data()[i])), 0.0);
         outside += change;
         if (change > 0)
-            halo.peak = std::max(halo.peak, change / (brightness + least_share * mean));
+            halo.peak = std::max(halo.peak, change / (brightness + mean_fraction * mean));
     }
     halo.energy = own > 0 ? outside / own : 0;
     return halo;

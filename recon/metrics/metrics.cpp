@@ -27,12 +27,12 @@ void check_sizes(const RgbImage& a, const RgbImage& b) {
         throw std::invalid_argument("images to compare are empty");
 }
 
-/// Means without the given share of the largest values; what is not a number counts as the largest.
-double trimmed_mean(std::vector<double> values, double share) {
+/// Returns the mean without the given fraction of the largest values. NaN counts as the largest.
+double trimmed_mean(std::vector<double> values, double fraction) {
     for (double& value : values)
         if (std::isnan(value))
             value = std::numeric_limits<double>::infinity();
-    const auto drop = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    const auto drop = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size()));
     std::nth_element(values.begin(), values.begin() + drop, values.end(), std::greater<>());
     const double sum = std::accumulate(values.begin() + drop, values.end(), 0.0);
     return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - drop);
@@ -77,8 +77,8 @@ std::vector<Piece> pieces_of(const Image<double>& values, int edge) {
     return pieces;
 }
 
-/// Pixels near each other err alike, pieces hardly: the variance of a mean over pieces of unequal size [Cochran
-/// 1977, 6.4].
+/// Treats pieces as independent, since errors of near pixels correlate. The variance is that of a mean over pieces
+/// of unequal size [Cochran 1977, 6.4].
 FloorFreeError mean_of_pieces(const Image<double>& errors) {
     constexpr int piece_edge = 16, few_pixels = 16 * piece_edge * piece_edge;
     const std::vector<Piece> pieces = pieces_of(errors, errors.size() < few_pixels ? 1 : piece_edge);
@@ -150,18 +150,18 @@ std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImag
 
 Slope log_log_slope(std::span<const glm::dvec2> points, std::span<const double> relative_errors) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto place = [](const glm::dvec2& p) { return glm::dvec2(std::log(p.x), std::log(p.y)); };
-    const auto has_place = [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+    const auto logarithms = [](const glm::dvec2& p) { return glm::dvec2(std::log(p.x), std::log(p.y)); };
+    const auto is_usable = [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
     double n = 0, x_sum = 0, xx_sum = 0;
     for (const glm::dvec2& point : points)
-        if (const glm::dvec2 p = place(point); has_place(p)) {
+        if (const glm::dvec2 p = logarithms(point); is_usable(p)) {
             n += 1;
             x_sum += p.x;
             xx_sum += p.x * p.x;
         }
     double spread = 0, rise = 0, error = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (const glm::dvec2 p = place(points[i]); has_place(p)) {
+        if (const glm::dvec2 p = logarithms(points[i]); is_usable(p)) {
             const double x = p.x - x_sum / n;
             spread += x * x;
             rise += x * p.y;

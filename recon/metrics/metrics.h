@@ -1,4 +1,4 @@
-// How far images are from a reference, or from two whose noises do not correlate.
+// Errors of images against a reference, or against two independent references.
 #pragma once
 
 #include "recon/image.h"
@@ -18,71 +18,72 @@ inline constexpr double relative_mse_epsilon = 0.001;
 /// Keeps the relative errors of dark pixels finite in MAPE: a radiance.
 inline constexpr double mape_epsilon = 0.01;
 
-/// How far an image I is from a reference r. Means are over pixels and their three channels.
+/// Errors of an image I against a reference r. Means are over pixels and their three channels.
 struct ErrorMetrics {
     double relative_mse = 0;         ///< mean of (I - r)^2 / (r^2 + relative_mse_epsilon)
     double relative_mse_trimmed = 0; ///< the same without the worst 0.01 % of the pixels (rounded down)
     double mse = 0;                  ///< mean of (I - r)^2
     double mape = 0;                 ///< mean of |I - r| / (|r| + mape_epsilon); 1 is 100 %
     double mean_ratio = 0;           ///< mean of I over mean of r
-    std::size_t bad_pixels = 0; ///< pixels of I that are not finite; if there are any, the errors are not either
+    std::size_t bad_pixels = 0;      ///< pixels of I that are not finite; if > 0, other errors are not finite
 };
 
-/// Measures them all. Throws std::invalid_argument if the sizes differ or the images are empty.
+/// Returns all errors. Throws std::invalid_argument if the sizes differ or the images are empty.
 ErrorMetrics measure_error(const RgbImage& image, const RgbImage& reference);
 
-/// The sum of the values of a square piece of an image, and how many pixels that has.
+/// Sum of the values of a square piece of an image, and its number of pixels.
 struct Piece {
     double sum = 0;
     double pixels = 0;
 };
 
-/// The pieces of an image, row by row: squares with an edge of `edge` pixels, and what is left at the right and at
-/// the bottom.
+/// Returns the pieces of an image, row by row: squares with an edge of `edge` pixels, smaller at the right and the
+/// bottom.
 std::vector<Piece> pieces_of(const Image<double>& values, int edge);
 
-/// An estimate of relative_mse to a noiseless reference, from two noisy ones.
+/// Estimate of the relative MSE to a noiseless reference, from two noisy ones.
 struct FloorFreeError {
     double relative_mse = 0; ///< mean of (I - r1)(I - r2) / (r^2 + epsilon), r = (r1 + r2) / 2
-    /// The standard error of relative_mse, from how pieces of 16 by 16 pixels differ (pixels, if pieces are few).
+    /// Standard error of relative_mse, from the variance over pieces of 16x16 pixels (over pixels in small
+    /// images).
     double standard_error = 0;
 };
 
-/// Estimates it. The noises of two independent references do not correlate, so that their products vanish in the
-/// mean, and an image equal to the truth gets 0 give or take the standard error. What is left, as r^2 is noisy
-/// too, is of the order of the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as
-/// measure_error does.
+/// Returns that estimate. The noise of two independent references does not correlate, so that their products
+/// vanish in the mean: an image equal to the truth has the expected value 0. A bias remains, since r^2 is noisy
+/// too. It is of the order of the fourth power of the references' relative noise: 1.5e-4 for 10 %. Throws as
+/// measure_error() does.
 FloorFreeError measure_floor_free_error(const RgbImage& image, const RgbImage& reference1,
                                         const RgbImage& reference2);
 
-/// By how much an image is too bright (positive) or too dark in each quarter of the pixels, from the darkest to
-/// the brightest: mean luminance of I over that of r, minus 1. Two independent references take turns to sort the
-/// pixels and to judge them, as what looks dark in the judge is dark by chance, too. Not finite for
-/// a quarter that is black in a reference, or empty. Throws as measure_error does.
+/// Returns the relative error of mean luminance, mean of I over mean of r minus 1, for each quarter of the pixels
+/// from the darkest to the brightest. Each reference sorts the pixels once while the other is compared: pixels
+/// that are sorted as dark by a reference are too dark in it by chance. Not finite for a quarter that is empty, or
+/// black in a reference. Throws as measure_error() does.
 std::array<double, 4> measure_energy_change(const RgbImage& image, const RgbImage& reference1,
                                             const RgbImage& reference2);
 
-/// How far the mean r of two independent references is from the truth, by their difference:
+/// Returns the error of the mean r of two independent references, from their difference:
 ///   mean of ((r1 - r2) / 2)^2 / (r^2 + epsilon).
-/// What both err alike, as a biased reconstruction does, is not in it. Throws as measure_error does.
+/// A bias that both have, as from a reconstruction, is not in it. Throws as measure_error() does.
 FloorFreeError measure_reference_error(const RgbImage& reference1, const RgbImage& reference2);
 
-// The maps of which these are means have a value a pixel, the mean of its channels.
+// Per-pixel maps of these errors, each the mean of three channels. They throw as measure_error() does.
 Image<double> floor_free_errors(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2);
 Image<double> reference_errors(const RgbImage& reference1, const RgbImage& reference2);
-/// The mean of such a map, and its standard error.
+/// Returns the mean of such a map, and its standard error.
 FloorFreeError mean_of_pieces(const Image<double>& errors);
 
-/// The slope of a line in a log-log chart, and the most that its standard error can be: points of one render stand
-/// on the same samples, so that their errors may go together in any way.
+/// Slope of a line in a log-log chart, and an upper limit of its standard error: points of one render have samples
+/// in common, so that their errors may be correlated in any way.
 struct Slope {
     double value, error;
 };
 
-/// The exponent b of y ~ x^b, the slope of a line in a log-log chart, by least squares of the logarithms: -1 for
-/// an error that falls as noise does. Left out are points that have no place there. Not a number for fewer than
-/// two places along x.
-/// @param relative_errors  the standard error of each y, over that y; none: the slope's is not a number
+/// Returns the exponent b of y ~ x^b by least squares of the logarithms: -1 for an error that falls as variance
+/// does. Points with a coordinate that is not positive and finite are left out. Returns NaN for fewer than two
+/// different x.
+/// @param relative_errors  standard error of each y, over y; empty: the slope's error is NaN
 Slope log_log_slope(std::span<const glm::dvec2> points, std::span<const double> relative_errors = {});
 
 } // namespace tessera

@@ -1,7 +1,7 @@
 #include "recon/metrics/sample_error.h"
 
-#include "recon/parallel.h"
 #include "recon/guided/demodulation.h"
+#include "recon/parallel.h"
 #include "recon/square_means.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int radius = 2;
 
-/// Half differences as radiance; 0 where one of both is not finite.
+/// Returns the half differences as radiance; 0 where they or the picture are not finite.
 RgbImage noise_of(const GradientImages& images, const RgbImage& picture) {
     RgbImage noise = images.halves.primal;
     multiply_by_known_albedo(images.demodulation, noise, serial_for);
@@ -23,7 +23,7 @@ RgbImage noise_of(const GradientImages& images, const RgbImage& picture) {
     return noise;
 }
 
-/// The means over the squares about all pixels of what a channel has above zero, times `sign`.
+/// Returns means over squares of max(sign * channel, 0); 0 for values that are not finite.
 Image<float> means_of(const RgbImage& image, int channel, float sign, Image<float>& rows) {
     constexpr float largest = 1e30f; // sums of some dozens stay finite
     Image<float> means(image.width(), image.height());

@@ -28,14 +28,14 @@ glm::dvec3 shown(Rgb c) {
     return {linear_to_srgb(v.r), linear_to_srgb(v.g), linear_to_srgb(v.b)};
 }
 
-// What follows is FLIP, step by step as in [Andersson 2020, 4]; its numbers are those of the paper.
+// FLIP, step by step with the constants of [Andersson 2020, 4].
 
 using Plane = Image<double>;
 using Colours = Image<glm::dvec3>;
 
 constexpr double pixels_a_degree = 0.7 * 3840 / 0.7 * std::numbers::pi / 180;
 
-/// Linear sRGB to XYZ, column by column, so that white is (0.9504..., 1, 1.0889...).
+/// Matrix from linear sRGB to XYZ, column by column, with white (0.9504..., 1, 1.0889...).
 const glm::dmat3 xyz_of_linear = glm::dmat3{{10135552, 6 * 871024.0, 475104},
                                             {8788810, 2 * 8788810.0, 8788810 / 3.0},
                                             {4435075, 2 * 887015.0, 70074185 / 3.0}} /
@@ -43,7 +43,7 @@ const glm::dmat3 xyz_of_linear = glm::dmat3{{10135552, 6 * 871024.0, 475104},
 const glm::dmat3 linear_of_xyz = glm::inverse(xyz_of_linear);
 const glm::dvec3 white = xyz_of_linear * glm::dvec3(1);
 
-/// Linear sRGB to YyCxCz, and back: lightness and two opponents, linear in light.
+/// Converts linear sRGB to YyCxCz: lightness and two opponents, linear in light.
 glm::dvec3 opponents_of(glm::dvec3 linear) {
     const glm::dvec3 n = xyz_of_linear * linear / white;
     return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
@@ -54,7 +54,7 @@ glm::dvec3 linear_of(glm::dvec3 opponents) {
     return linear_of_xyz * (glm::dvec3(y + opponents.y / 500, y, y - opponents.z / 200) * white);
 }
 
-/// L*a*b*, of which a and b count as much as there is light [Hunt 1952].
+/// Converts to L*a*b*, with a and b scaled by lightness after the Hunt effect [Hunt 1952].
 glm::dvec3 lab_of(glm::dvec3 linear) {
     constexpr double delta = 6 / 29.0;
     const glm::dvec3 n = xyz_of_linear * linear / white;
@@ -65,12 +65,12 @@ glm::dvec3 lab_of(glm::dvec3 linear) {
     return {lightness, 0.01 * lightness * 500 * (f.x - f.y), 0.01 * lightness * 200 * (f.y - f.z)};
 }
 
-/// The HyAB distance [Abasi 2020].
+/// Returns the HyAB distance [Abasi 2020].
 double distance_of(glm::dvec3 a, glm::dvec3 b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-/// The kernel of one dimension, from -r to r.
+/// One-dimensional kernel, from -r to r.
 using Kernel = std::vector<double>;
 
 template <class Value>
@@ -81,7 +81,7 @@ Kernel kernel_of(int radius, Value value) {
     return kernel;
 }
 
-/// Filters along rows with one kernel and along columns with the other; the picture goes on as at its borders.
+/// Filters along rows with one kernel and along columns with the other. Border pixels are repeated.
 template <class Pixel>
 Image<Pixel> filtered(const Image<Pixel>& image, const Kernel& along_x, const Kernel& along_y,
                       const ParallelFor& parallel_for) {
@@ -106,9 +106,9 @@ Image<Pixel> filtered(const Image<Pixel>& image, const Kernel& along_x, const Ke
     return result;
 }
 
-/// What the eye resolves: each opponent through its contrast sensitivity function, a sum of Gaussians
-/// a sqrt(pi / b) exp(-pi^2 x^2 / b) over degrees x.
-Colours resolved(const Colours& opponents, const ParallelFor& parallel_for) {
+/// Filters each opponent with its contrast sensitivity function, a sum of Gaussians a sqrt(pi / b) exp(-pi^2 x^2 /
+/// b) over degrees x.
+Colours csf_filtered(const Colours& opponents, const ParallelFor& parallel_for) {
     struct Gaussian {
         double a, b;
     };
@@ -144,23 +144,24 @@ Colours resolved(const Colours& opponents, const ParallelFor& parallel_for) {
     return result;
 }
 
-/// How much colours differ to the eye, in [0, 1].
+/// Returns the colour differences of FLIP, in [0, 1].
 Plane colour_differences(const Colours& a, const Colours& b, const ParallelFor& parallel_for) {
-    constexpr double power = 0.7, share = 0.4, to = 0.95; // differences above `share` of the largest get 1 - `to`
+    constexpr double power = 0.7, knee = 0.4, knee_value = 0.95; // [0, knee] is mapped to [0, knee_value]
     const double largest = std::pow(distance_of(lab_of({0, 1, 0}), lab_of({0, 0, 1})), power);
-    const Colours seen_a = resolved(a, parallel_for), seen_b = resolved(b, parallel_for);
+    const Colours seen_a = csf_filtered(a, parallel_for), seen_b = csf_filtered(b, parallel_for);
     const auto lab = [](glm::dvec3 opponents) { return lab_of(glm::clamp(linear_of(opponents), 0.0, 1.0)); };
     Plane result(a.width(), a.height());
     parallel_for(a.height(), [&](int y) {
         for (int x = 0; x < a.width(); ++x) {
             const double d = std::pow(distance_of(lab(seen_a(x, y)), lab(seen_b(x, y))), power) / largest;
-            result(x, y) = d < share ? to / share * d : to + (d - share) / (1 - share) * (1 - to);
+            result(x, y) =
+                d < knee ? knee_value / knee * d : knee_value + (d - knee) / (1 - knee) * (1 - knee_value);
         }
     });
     return result;
 }
 
-/// Scales positive and negative weights so that each sum to one.
+/// Scales positive and negative weights so that each group sums to one in magnitude.
 void balance(Kernel& kernel) {
     double positive = 0, negative = 0;
     for (double k : kernel)
@@ -169,8 +170,8 @@ void balance(Kernel& kernel) {
         k /= k > 0 ? positive : negative;
 }
 
-/// How much edges, or points, differ: of lightness in [0, 1], the lengths of what a Gaussian's first, or second,
-/// derivative finds.
+/// Returns differences of edges, or of points: of the lengths of first, or second, Gaussian derivatives of
+/// lightness in [0, 1].
 Plane feature_differences(const Plane& a, const Plane& b, bool points, const ParallelFor& parallel_for) {
     const double deviation = 0.5 * 0.082 * pixels_a_degree;
     const int radius = static_cast<int>(std::ceil(3 * deviation));
@@ -196,7 +197,7 @@ Plane feature_differences(const Plane& a, const Plane& b, bool points, const Par
     return result;
 }
 
-/// What the screen shows, as linear light, in opponents.
+/// Returns the opponents of the displayed linear light, clipped to [0, 1].
 Colours shown_opponents(const RgbImage& image) {
     Colours result(image.width(), image.height());
     std::transform(image.begin(), image.end(), result.begin(),

@@ -1,4 +1,4 @@
-// How different pictures look on a screen: as sRGB at exposure 0, where what is brighter than white is white.
+// Visible differences between pictures on a screen: sRGB at exposure 0, clipped at white.
 #pragma once
 
 #include "recon/image.h"
@@ -6,18 +6,18 @@
 
 namespace tessera {
 
-/// The peak signal-to-noise ratio, in decibels, of a picture to a noiseless one that two independent references
-/// surround: -10 log10 of the mean of (D(I) - D(r1)) (D(I) - D(r2)), where D is what the screen shows, in [0, 1].
-/// Not a number where that mean is not above 0, as of equal pictures. Throws std::invalid_argument if sizes differ
-/// or the images are empty.
+/// Returns the peak signal-to-noise ratio in decibels, estimated from two independent references:
+/// -10 log10 of the mean of (D(I) - D(r1)) (D(I) - D(r2)), where D is the sRGB code in [0, 1]. The noise of the
+/// references drops out of the mean. Returns NaN if the mean is not above 0, as for equal pictures. Throws
+/// std::invalid_argument if sizes differ or the images are empty.
 double psnr(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2);
 
-/// FLIP [Andersson 2020]: how much an observer who flips between two pictures sees them differ, at each pixel, in
-/// [0, 1], from 0.7 m before a 4K screen 0.7 m wide. By what of their colours the eye resolves at that distance,
-/// and what differs in edges and points. A noisy reference counts as if it were none.
+/// Returns the FLIP map [Andersson 2020]: the difference at each pixel, in [0, 1], that an observer sees who flips
+/// between two pictures, 0.7 m from a 4K screen 0.7 m wide. It combines differences of colours at the eye's
+/// resolution with those of edges and points. Noise of the reference counts as difference. Throws as psnr() does.
 Image<float> flip(const RgbImage& image, const RgbImage& reference, const ParallelFor& parallel_for = serial_for);
 
-/// The mean of that map.
+/// Returns the mean of flip().
 double mean_flip(const RgbImage& image, const RgbImage& reference, const ParallelFor& parallel_for = serial_for);
 
 } // namespace tessera

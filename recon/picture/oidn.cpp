@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct Device;
 struct Filter;
 
-/// The library's functions, by their signatures in its header oidn.h.
+/// Functions of the library, with the signatures of its header oidn.h.
 struct Library {
     Device* (*new_device)(int type) = nullptr;
     void (*set_device_int)(Device*, const char* name, int value) = nullptr;
@@ -38,13 +38,13 @@ struct Library {
     void (*execute)(Filter*) = nullptr;
     void (*release_filter)(Filter*) = nullptr;
 
-    std::string problem; ///< why it is not there; empty: all functions are
+    std::string problem; ///< why it cannot be used; empty: all functions were found
 };
 
-/// The values of oidn.h that are needed.
+/// Constants of oidn.h.
 constexpr int device_cpu = 1, format_float3 = 3;
 
-/// Finds a function by its name in version 2, or in 1. False: there is none.
+/// Finds a function by its name in version 2, or in 1. Returns false if there is none.
 template <class Function>
 bool find(void* library, Function*& function, const char* name, const char* old_name = nullptr) {
     void* found = dlsym(library, name);
@@ -68,7 +68,8 @@ bool find_all(void* handle, Library& l) {
 
 constexpr std::string_view file_name = "libOpenImageDenoise.so";
 
-/// Files of that name at a path, or below it, as deep as a wheel has them in an environment.
+/// Searches a folder for the library, down to the depth at which Python wheels install it. A file is returned as
+/// it is.
 std::vector<std::string> libraries_at(const fs::path& path) {
     std::error_code error;
     if (!fs::is_directory(path, error))
@@ -87,7 +88,7 @@ std::vector<std::string> libraries_at(const fs::path& path) {
     return found;
 }
 
-/// Where Python's wheels are in an environment.
+/// Searches the packages of a Python environment for the library.
 std::vector<std::string> libraries_of_python(const fs::path& environment) {
     std::vector<std::string> found;
     std::error_code error;
@@ -104,7 +105,7 @@ std::vector<std::string> libraries_of_python(const fs::path& environment) {
     return found;
 }
 
-std::vector<std::string> places() {
+std::vector<std::string> candidate_libraries() {
     if (const char* named = std::getenv("TESSERA_OIDN"); named && *named)
         return libraries_at(fs::absolute(named));
     std::vector<std::string> names{"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1",
@@ -117,22 +118,22 @@ std::vector<std::string> places() {
 Library load() {
     Library library;
     std::string last;
-    for (const std::string& name : places()) {
+    for (const std::string& name : candidate_libraries()) {
         void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (handle && find_all(handle, library))
-            return library; // and stays loaded
+            return library; // the handle stays open
         last = handle ? name + " lacks functions of Open Image Denoise 1.4 or 2" : dlerror();
         if (handle)
             dlclose(handle);
     }
     const char* named = std::getenv("TESSERA_OIDN");
-    library.problem = "Open Image Denoise is not there";
+    library.problem = "Open Image Denoise was not found";
     if (named && *named)
         library.problem += std::string(" at TESSERA_OIDN=") + named;
     if (!last.empty())
         library.problem += " (" + last + ")";
-    library.problem += ": it is a library of its own, from www.openimagedenoise.org or by `pip install pyoidn`; "
-                       "TESSERA_OIDN names its file, or a folder that holds it";
+    library.problem += ": install it from www.openimagedenoise.org or with `pip install pyoidn`, or set "
+                       "TESSERA_OIDN to its file or to a folder that holds it";
     return library;
 }
 
@@ -141,7 +142,7 @@ const Library& library() {
     return loaded;
 }
 
-/// Copies into memory that the filter may read: it takes non-const pointers.
+/// Copy of an image for the filter, which takes non-const pointers.
 struct SharedImage {
     RgbImage image;
 
@@ -177,9 +178,9 @@ RgbImage denoised_by_oidn(const RgbImage& image, const FeatureImages& features) 
     const Library& oidn = library();
     const std::unique_ptr<Device, void (*)(Device*)> device(oidn.new_device(device_cpu), oidn.release_device);
     if (!device)
-        check(nullptr); // the error of the thread
+        check(nullptr); // throws the error of the thread
     oidn.set_device_int(device.get(), "numThreads", 1);
-    oidn.set_device_int(device.get(), "setAffinity", 0); // the thread is not its own
+    oidn.set_device_int(device.get(), "setAffinity", 0); // the calling thread belongs to the caller
     oidn.commit_device(device.get());
     check(device.get());
     const std::unique_ptr<Filter, void (*)(Filter*)> filter(oidn.new_filter(device.get(), "RT"),

@@ -19,7 +19,7 @@ void check_sizes(const GradientImages& images) {
     const auto check = [&](const auto& image) {
         const bool fits = image.width() == images.primal.width() && image.height() == images.primal.height();
         if (!image.empty() && !fits)
-            throw std::invalid_argument("the images to reconstruct from differ in size");
+            throw std::invalid_argument("the images to reconstruct differ in size");
     };
     const Demodulation& d = images.demodulation;
     const BrightestSamples& b = images.brightest;
@@ -28,7 +28,7 @@ void check_sizes(const GradientImages& images) {
     if (g.albedo.empty() != g.normal.empty() || g.albedo.empty() != g.nearness.empty() ||
         g.albedo.empty() != g.roughness.empty() ||
         (images.has_gradients() && !h.empty() && (h.dx.empty() || h.dy.empty())))
-        throw std::invalid_argument("the features, or the half differences, are not complete");
+        throw std::invalid_argument("the features or the half differences are incomplete");
     for (const RgbImage* image :
          {&images.dx, &images.dy, &images.very_direct, &d.value, &d.albedo, &d.sampled_albedo, &d.sampled_variance,
           &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal})
@@ -46,10 +46,10 @@ void check_sizes(const GradientImages& images) {
     }
 }
 
-/// What two pictures must have in common for a fit to serve both.
+/// Properties that two pictures must share for one fit to serve both.
 struct FitKey {
     ReconstructionSettings settings;
-    int samples; ///< a pixel; 0: unknown
+    int samples; ///< samples of each pixel; 0: unknown
     bool has_gradients, has_variances, has_features, has_halves, has_brightest, is_demodulated;
     std::size_t parts;
     float patch;
@@ -60,13 +60,14 @@ struct FitKey {
           has_halves(!images.halves.empty()), has_brightest(!images.brightest.empty()),
           is_demodulated(!images.demodulation.empty()), parts(images.parts.size()), patch(images.patch) {}
 
-    /// Whether a fit serves `later`: with a quarter more samples, noise is a tenth less.
+    /// Returns whether a fit serves `later`, with less than a quarter more samples, which reduce noise by a tenth.
     bool serves(FitKey later) const {
         const bool is_near = later.samples >= samples && 4 * later.samples < 5 * samples;
         later.samples = samples;
         return is_near && later == *this;
     }
-    /// Whether it can serve a picture with one sample more: of fewer than five samples, one is a quarter.
+    /// Returns whether it can serve a picture with one sample more: of fewer than five samples, one is a quarter
+    /// or more.
     bool can_serve() const { return samples > 4; }
     bool operator==(const FitKey&) const = default;
 };
@@ -134,7 +135,7 @@ std::uint64_t Reconstructor::bytes_kept() const {
     return kept_ ? kept_->fit.bytes() : 0;
 }
 
-/// Makes the picture of `guided` or `smoothed`, and keeps what is found about it for the next.
+/// Makes the picture of `guided` or `smoothed`, and keeps its fit for the next.
 Reconstruction Reconstructor::denoise(const GradientImages& images, const ReconstructionSettings& settings,
                                       const ParallelFor& parallel_for, const SolveWatch& watch) {
     const FitKey key(images, settings);
@@ -152,7 +153,7 @@ Reconstruction Reconstructor::denoise(const GradientImages& images, const Recons
             .goes_on = is_fitted};
 }
 
-/// Makes the picture of a published reconstruction, on raw samples.
+/// Makes the picture of a published reconstruction from raw samples.
 Reconstruction Reconstructor::publish(const GradientImages& images, const ReconstructionSettings& settings,
                                       const ParallelFor& parallel_for, const SolveWatch& watch) {
     Reconstruction result;
@@ -185,7 +186,7 @@ Reconstruction Reconstructor::reconstruct(const GradientImages& images, const Re
         solvers_ = std::make_unique<PictureSolvers>(width, height);
     }
     if (settings.norm != Norm::guided)
-        solvers_->forget_halves(); // they would be of an old picture when they are needed
+        solvers_->forget_halves(); // their last solution would be outdated when it is needed
     const bool is_denoised = settings.norm == Norm::guided || settings.norm == Norm::smoothed;
     if (!is_denoised)
         kept_.reset();

@@ -16,10 +16,10 @@ namespace {
 
 constexpr int linear_iterations = 48, weighted_iterations = 16;
 constexpr int reweightings = 8, reweighted_iterations = 6;
-constexpr float least_length = 0.1f; ///< of a misfit, in typical values: below, L1 is as good as L2
+constexpr float least_length = 0.1f; ///< in typical values; shorter misfits have the weight of L2
 
-// Start and preconditioner need not have the weight of the problem: where gradients are trusted less, a larger one
-// is nearer to it, and does not need to refine its answers.
+// Least alpha of start and preconditioner: they need not have the problem's alpha, and a smaller one would need
+// refinement.
 constexpr float least_alpha = 0.1f;
 
 EdgeWeights all_of(float weight, int width, int height) {
@@ -31,7 +31,7 @@ EdgeWeights all_of(float weight, int width, int height) {
     return weights;
 }
 
-/// V of write_row(): `image` times the numbers of `scale`.
+/// Returns V of write_row(): `image` times the numbers of `scale`.
 auto scaled_by(const Image<float>& scale, const RgbImage& image) {
     return [&scale, &image](int x, int row, int count, float* out) {
         const float *own = values(image, x, row), *s = scale.row(row) + x;
@@ -62,7 +62,7 @@ void ComponentSolver::make_room(int parts) {
             *kept = RgbImage(width, height);
 }
 
-/// Each part by itself.
+/// Solves for each component by itself.
 void ComponentSolver::start(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     for (std::size_t l = 0; l < parts_.size(); ++l) {
         const BasisComponent& given = images.parts[l];
@@ -71,14 +71,16 @@ void ComponentSolver::start(const GradientImages& images, float alpha, const Par
     }
 }
 
-/// Each part's variances against those of the primal of the whole, to which the primal's term belongs.
+/// Sets weights from each component's variances against those of the primal of the whole, which the primal's term
+/// contains.
 void ComponentSolver::weigh(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     for (std::size_t l = 0; l < parts_.size(); ++l)
         parts_[l].weights = weights_of_part(images, images.parts[l], alpha, parallel_for);
     whole_ = weights_of_gradients(images, alpha, {}, parallel_for);
 }
 
-/// So that the sum of weighted squares falls where that of lengths, times the unit, does.
+/// Sets weights by which the weighted squares approximate unit times the lengths (iteratively reweighted least
+/// squares).
 void ComponentSolver::reweigh(const GradientImages& images, float unit, const ParallelFor& parallel_for) {
     const int width = solver_.width(), height = solver_.height();
     const auto weight = [&](Rgb misfit) {
@@ -97,7 +99,7 @@ void ComponentSolver::reweigh(const GradientImages& images, float unit, const Pa
     });
 }
 
-/// sum_ = sum over l of s^l times the part's `summand`.
+/// Sets sum_ to the sum over l of s^l times the component's `summand`.
 void ComponentSolver::sum(const GradientImages& images, RgbImage Part::*summand, const ParallelFor& parallel_for) {
     parallel_for(solver_.height(), [&](int y) {
         std::fill_n(sum_.row(y), sum_.width(), Rgb(0));
@@ -110,7 +112,7 @@ void ComponentSolver::sum(const GradientImages& images, RgbImage Part::*summand,
     });
 }
 
-/// r = b - A E, of all parts.
+/// Sets r = b - A E of all components.
 void ComponentSolver::find_residual(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     const int next_row = 3 * solver_.width();
     const float weight = alpha * alpha;
@@ -135,7 +137,7 @@ void ComponentSolver::find_residual(const GradientImages& images, float alpha, c
     });
 }
 
-/// Takes steps from the residual at hand. False: stopped.
+/// Takes steps of conjugate gradients from the current residual. Returns false if stopped.
 bool ComponentSolver::descend(const GradientImages& images, float alpha, int iterations,
                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const int width = solver_.width(), height = solver_.height(), next_row = 3 * width;
@@ -175,7 +177,7 @@ bool ComponentSolver::descend(const GradientImages& images, float alpha, int ite
         });
         const Channels rz = total(rows_rz), wz = total(rows_wz);
         if (!std::isfinite(total(rz) + total(wz)))
-            return true; // too large for floats: no further than here
+            return true; // overflow: keeps the current image
         factors.take(rz, wz);
         const Factors turns = factors.turns(), steps = factors.steps();
         parallel_for(height, [&](int y) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/image.h"
-#include "recon/parallel.h"
 #include "recon/norm.h"
+#include "recon/parallel.h"
 #include "recon/solvers/poisson_direct.h"
 #include "recon/solvers/poisson_weighted.h"
 
@@ -11,37 +11,35 @@
 
 namespace tessera {
 
-/// Reconstructs a coefficient E = sum of s^l E^l from its parts, all of them at once [Fang 2024, eq. 19]:
-/// minimises the sum over the pixels of
+/// Reconstructs a coefficient E = sum of s^l E^l, METHODS (31), from all its components at once [Fang 2024, eq.
+/// 19]: minimises the sum over the pixels of
 ///     sum over l of w_x^l |Dx E^l - dx^l|^2 + w_y^l |Dy E^l - dy^l|^2
 ///     + v_x |Dx E - dx|^2 + v_y |Dy E - dy|^2 + (alpha |E - primal|)^2 ,
-/// where parts have the unit of E (render/estimator/basis.h), so that with one part of projection 1 this is the
-/// screened Poisson problem. (Eq. 19 divides the first row by the number of parts, and has other units: its lambda
-/// is alpha^2 4.75 / parts. For `weighted`, alpha is weighted_alpha().)
-///   l2        w = 1, v = 0: linear in the data, but for what a last step of conjugate gradients would add, a
-///             thousandth of the error
+/// where components have the unit of E (render/estimator/basis.h). With one component of projection 1, this is the
+/// screened Poisson problem. (Eq. 19 divides the first row by the number of components, and has other units: its
+/// lambda is alpha^2 4.75 / parts. For `weighted`, alpha is weighted_alpha().)
+///   l2        w = 1, v = 0: linear in the data, up to the truncation error of conjugate gradients
 ///   mixed     lengths in place of the first row's squares, by reweighting [Fang 2024, 4]; v = 0
-///   l1        the same: what is called L1 there has the primal squared
-///   weighted  w and v from variances, as control variates have them (weights_of_gradients): parts count where
-///             they are the smoother ones, the gradients of the whole where these are. That takes the place of
-///             mixing finished pictures [Fang 2024, 3.3].
+///   l1        the same as mixed, since [Fang 2024] squares the primal in L1
+///   weighted  w and v from variances (weights_of_gradients): components count where they are smoother, and
+///             gradients of the whole elsewhere. This replaces mixing finished pictures [Fang 2024, 3.3].
 ///
-/// Conjugate gradients over all parts, preconditioned by the direct solver for each [Concus and Golub 1973].
-/// The start is each part by itself.
+/// The method is conjugate gradients over all components, preconditioned by the direct solver for each [Concus and
+/// Golub 1973]. It starts from each component's own solution.
 class ComponentSolver {
 public:
-    /// `width` and `height` are >= 1.
+    /// @param width, height  >= 1
     ComponentSolver(int width, int height) : solver_(width, height) {}
 
-    /// The memory that such a solver takes, if it works on so many threads.
+    /// Returns the bytes of such a solver, used by so many threads.
     static std::uint64_t bytes(int width, int height, int parts, int threads);
 
-    /// Of how many parts it has memory already.
+    /// Returns the number of components for which it has memory.
     int parts() const { return static_cast<int>(parts_.size()); }
 
-    /// Writes E to `image`; returns the number of inner solves over all parts, 0 if stopped, which is looked at
-    /// between them. The same bits for any parallel_for.
-    /// @param images  with one part at least
+    /// Writes E to `image`. Returns the number of inner solves over all components, or 0 if stopped between two of
+    /// them. The result has the same bits for any parallel_for.
+    /// @param images  with at least one component
     /// @param norm    l2, l1, mixed or weighted
     /// @param alpha   > 0
     int solve(const GradientImages& images, Norm norm, float alpha, RgbImage& image,
@@ -65,8 +63,8 @@ private:
     PoissonSolver solver_;
     std::vector<Part> parts_;
     EdgeWeights whole_;      ///< v; empty: 0
-    RgbImage sum_;           ///< of the parts at hand, times their projections
-    RgbImage of_whole_;      ///< what the terms of E make of that, alike for all parts but for their projections
+    RgbImage sum_;           ///< sum of projections times one image of each component
+    RgbImage of_whole_;      ///< terms of E in the normal equations, before multiplication by a projection
     int done_ = 0, all_ = 0; ///< inner solves
 };
 

@@ -16,9 +16,9 @@ namespace {
 
 constexpr float largest_variance = 1e30f; // sums of some dozens stay finite
 
-/// Estimates variances from how much the values differ in the 3x3 pixels around each: the sample variance, summed
-/// over the channels. Detail of the picture counts as noise. 0 in the last `columns` and `rows`, as where
-/// variances are measured.
+/// Returns the sample variance of the values of 3x3 pixels, summed over the channels, as an estimate of each
+/// variance. Detail of the picture counts as noise. The last `columns` and `rows`, where gradients are undefined,
+/// are 0.
 Image<float> variances_from_neighbours(const RgbImage& values, int columns, int rows,
                                        const ParallelFor& parallel_for) {
     const int width = values.width() - columns, height = values.height() - rows;
@@ -33,7 +33,7 @@ Image<float> variances_from_neighbours(const RgbImage& values, int columns, int 
                     sum += value;
                     squares += glm::dot(value, value);
                 }
-            const double spread = squares - glm::dot(sum, sum) / n; // below 0 by rounding alone
+            const double spread = squares - glm::dot(sum, sum) / n; // negative only by rounding
             if (n > 1)
                 variances(x, y) = static_cast<float>(std::clamp(spread / (n - 1), 0.0, double(largest_variance)));
         }
@@ -41,11 +41,11 @@ Image<float> variances_from_neighbours(const RgbImage& values, int columns, int 
     return variances;
 }
 
-/// The brightness that variances are relative to.
+/// Squared brightness B that variances are relative to, METHODS (40).
 struct Brightness {
-    Image<float> squares; ///< of brightness plus `dark` of the local mean
+    Image<float> squares; ///< (b + dark L)^2
 
-    /// @param is_measured  false: one sample, whose brightness is unknown; variances stay absolute
+    /// @param is_measured  false: no variances; B = 1
     Brightness(const RgbImage& primal, bool is_measured, const GuidedParameters& parameters,
                const ParallelFor& parallel_for)
         : squares(primal.width(), primal.height(), Unfilled()) {
@@ -65,13 +65,13 @@ struct Brightness {
         });
     }
 
-    /// The square that the variance at (x, y) is relative to; of a gradient, the sum for both pixels.
+    /// Returns B at (x, y), or for a gradient the sum of B of both pixels.
     float scale(int x, int y, int columns, int rows) const {
         return squares(x, y) + (columns + rows > 0 ? squares(x + columns, y + rows) : 0.0f);
     }
 };
 
-/// Divides variances by the squares of the brightness; anything in the last `columns` and `rows`.
+/// Divides variances by B. The last `columns` and `rows` are undefined.
 Image<float> relative(const Image<float>& variances, const Brightness& brightness, int columns, int rows,
                       const ParallelFor& parallel_for) {
     Image<float> result(variances.width(), variances.height(), Unfilled());
@@ -84,16 +84,17 @@ Image<float> relative(const Image<float>& variances, const Brightness& brightnes
     return result;
 }
 
+/// Returns w of METHODS (38), for a primal of weight alpha^2.
 float weight(float alpha, float k, float gradient_variance, float one_primal_variance,
              float other_primal_variance) {
-    const float least = alpha * alpha * std::min(one_primal_variance, other_primal_variance),
+    const float primal = alpha * alpha * std::min(one_primal_variance, other_primal_variance),
                 noise = k * gradient_variance;
-    return noise > 0 ? least / (least + noise) : 1;
+    return noise > 0 ? primal / (primal + noise) : 1;
 }
 
-/// Returns the variances of an image or its gradients as means over squares, relative to the brightness; 0 in the
-/// last `columns` and `rows`, where nothing is measured.
-/// @param measured  empty: they are estimated from neighbours
+/// Returns V of METHODS (40), for an image or its gradients; 0 in the last `columns` and `rows`, where gradients
+/// are undefined.
+/// @param measured  sample variances; empty: estimated from neighbours
 Image<float> variances_around(const RgbImage& values, const Image<float>& measured, int radius,
                               const Brightness& brightness, int columns, int rows,
                               const ParallelFor& parallel_for) {
@@ -109,7 +110,7 @@ Image<float> variances_around(const RgbImage& values, const Image<float>& measur
     return around;
 }
 
-/// Weights of `gradients` (the whole's, or a component's) against the whole's primal.
+/// Returns the weights of `gradients` (of the whole, or of a component) against the whole's primal.
 template <class Gradients>
 EdgeWeights weights_of(const GradientImages& images, const Gradients& gradients, float alpha,
                        const GuidedParameters& parameters, const ParallelFor& parallel_for) {

@@ -8,7 +8,7 @@ namespace tessera {
 
 namespace {
 
-/// One complex number of each lane.
+/// One complex number in each lane.
 struct Complex {
     Lanes re;
     Lanes im;
@@ -30,7 +30,7 @@ inline Complex times(float re, float im, const Complex& a) {
     return {re * a.re - im * a.im, re * a.im + im * a.re};
 }
 
-// Discrete Fourier transforms of a few points, in place.
+// Discrete Fourier transforms of 2, 3, 4 and 5 points, in place.
 
 inline void butterfly(Complex (&a)[2]) {
     const Complex difference = a[0] - a[1];
@@ -169,7 +169,7 @@ int next_smooth(int size) {
 
 namespace {
 
-/// The real and imaginary parts of elements k and size - k of a buffer.
+/// Offsets of elements k and size - k of a buffer.
 struct MirrorPair {
     MirrorPair(ComplexLanes b, int k, int size) : low(k * lanes), high((size - k) * lanes), buffer(b) {}
 
@@ -210,7 +210,7 @@ ComplexLanes LaneDct::forward(ComplexLanes lines, ComplexLanes scratch) const {
 }
 
 ComplexLanes LaneDct::inverse(ComplexLanes spectra, ComplexLanes scratch) const {
-    // A[k] = conj(w) (X[k] - i X[size - k]), likewise B, and F = A + iB; A and B are those of real lines.
+    // A[k] = conj(w) (X[k] - i X[size - k]), B[k] in the same way, and F = A + iB; the lines of A and B are real.
     const float scale = 1 / static_cast<float>(size());
     store(spectra.re, scale * load(spectra.re));
     store(spectra.im, scale * load(spectra.im));

@@ -8,12 +8,11 @@ namespace {
 
 constexpr int uniform_iterations = 50;
 
-// Fireflies of raw samples make weights jump at the borders of tiles, which slows convergence: 5 steps leave 0.27
-// of the solution as error, 20 leave 0.01 (tiles of 4 pixels off the multigrid's cells).
+// Fireflies of raw samples make weights jump at the borders of tiles, which slows convergence.
 constexpr WeightedSettings of_raw_samples{.cold_iterations = 20, .warm_iterations = 10};
-// A picture with the weights of the last one: its correction is nearly solved.
+// With kept weights, the last correction is nearly the solution.
 constexpr WeightedSettings by_kept_weights{.warm_iterations = 2};
-// The noise of a picture differs from one half to the other; two steps resolve more than that.
+// The half differences are one sample of the noise; two steps are more accurate than that sample.
 constexpr WeightedSettings of_halves{.cold_iterations = 2, .warm_iterations = 2};
 
 } // namespace

@@ -11,9 +11,9 @@ namespace tessera {
 
 TridiagonalColumns::Block TridiagonalColumns::factor_block(const double* mu, int height) {
     Block block;
-    std::array<double, column_block> c{}; // of the row before
+    std::array<double, column_block> c{}; // of the previous row
     const auto row = [&](int y) {
-        // Differences to the rows above and below.
+        // Number of differences to the rows above and below.
         const int neighbours = (y > 0) + (y < height - 1);
         std::array<double, column_block> next;
         for (int i = 0; i < column_block; ++i)
@@ -71,9 +71,8 @@ void TridiagonalColumns::solve(int block_index, float* values) const {
 
 namespace {
 
-constexpr int group_rows = 2 * lanes; // what one transform takes
-constexpr int chunk_pixels =
-    64; // of a row, that are handled at a time: the chunks of a group stay in the L1 cache
+constexpr int group_rows = 2 * lanes; // rows of one transform
+constexpr int chunk_pixels = 64;      // of a row, processed at a time: the chunks of a group stay in the L1 cache
 
 using Chunk = float[group_rows][3 * chunk_pixels];
 
@@ -89,10 +88,10 @@ int refinements(float alpha) {
 
 } // namespace
 
-/// What a thread needs for a group of rows or a block of columns.
+/// Scratch memory of a thread for a group of rows or a block of columns.
 struct PoissonSolver::Scratch {
     Scratch(int size, std::size_t column_values) : columns(column_values) {
-        // Arrays that begin at equal places in pages of memory would evict each other from the cache.
+        // Arrays that begin at equal offsets within pages would evict each other from the cache.
         constexpr std::size_t stagger = 144;
         const std::size_t step = static_cast<std::size_t>(size) * lanes + stagger;
         memory.resize(8 * step);
@@ -110,12 +109,12 @@ struct PoissonSolver::Scratch {
 
 namespace {
 
-/// The half of a group that row l of the lanes belongs to.
+/// Returns the first (real) or second (imaginary) half of a group of lines.
 float* half_of(ComplexLanes lines, int half) {
     return half == 0 ? lines.re : lines.im;
 }
 
-/// Takes rows of interleaved channels, `count` pixels from x = first on, to lanes.
+/// Transposes rows of interleaved channels, `count` pixels from x = first on, to lines in lanes.
 void chunk_to_lines(const Chunk& chunk, const LaneDct& dct, int first, int count,
                     const ComplexLanes (&channels)[3]) {
     for (int value = 0; value < 3 * count; value += lanes) {
@@ -264,7 +263,7 @@ void PoissonSolver::rows_to_spectrum(const RowSource& source, int group, Scratch
 
 void PoissonSolver::write_spectra(ComplexLanes spectra, int channel, int group) {
     const int size = dct_.size(), padded_size = columns_.blocks() * column_block;
-    for (int k = 0; k < padded_size; k += lanes) { // what is beyond is 0 anew: it may have become NaN
+    for (int k = 0; k < padded_size; k += lanes) { // the padding is cleared, as solves may leave NaN there
         for (int half = 0; half < 2; ++half) {
             Lanes tile[lanes] = {};
             for (int i = 0; i < std::min(lanes, size - k); ++i)

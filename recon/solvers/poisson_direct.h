@@ -11,22 +11,22 @@
 
 namespace tessera {
 
-/// Columns that are solved together.
+/// Number of columns that are solved together.
 inline constexpr int column_block = 2 * lanes;
 
-/// Solves (mu_k + T) u = b for many columns k, each with its own mu_k > 0, where T is the second difference down a
-/// column with free ends: (T u)(y) = sum over the neighbours y' of y of u(y) - u(y').
+/// Solves (mu_k + T) u = b for many columns k, each with its own mu_k > 0, where T is the second difference along
+/// a column with free ends: (T u)(y) = sum over the neighbours y' of y of u(y) - u(y').
 ///
-/// Thomas's algorithm: with c(0) = 1 / (mu + 1) and c(y) = 1 / (mu + 2 - c(y-1)), where at the last row 1 stands
-/// for the 2, the sweep down z(y) = c(y) (b(y) + z(y-1)) and the sweep up u(y) = z(y) + c(y) u(y+1) give the
-/// answer. c soon reaches a fixed point; only the rows before are kept. It is worked out in double: 1 - c tells
-/// low frequencies apart, and is small.
+/// Thomas's algorithm: let c(0) = 1 / (mu + 1) and c(y) = 1 / (mu + 2 - c(y-1)), with 1 in place of 2 in the last
+/// row. The forward sweep z(y) = c(y) (b(y) + z(y-1)) and the backward sweep u(y) = z(y) + c(y) u(y+1) give the
+/// solution. c soon reaches a fixed point; only the rows before it are kept. c is computed in double, since the
+/// small 1 - c distinguishes low frequencies.
 class TridiagonalColumns {
 public:
-    /// `height` rows >= 1.
+    /// @param height  number of rows, >= 1
     explicit TridiagonalColumns(int height) : height_(height) {}
 
-    /// Prepares for one mu a column; mu.size() is a multiple of column_block.
+    /// Prepares for one mu for each column; mu.size() is a multiple of column_block.
     void factor(const std::vector<double>& mu);
 
     int blocks() const { return static_cast<int>(blocks_.size()); }
@@ -37,7 +37,7 @@ public:
 
 private:
     struct Block {
-        std::vector<float> factors; ///< c(y), column by column, of the rows up to the fixed point
+        std::vector<float> factors; ///< c(y) of the rows up to the fixed point, row by row
         std::vector<float> last;    ///< c of the last row
         int rows = 0;
     };
@@ -48,39 +48,39 @@ private:
     std::vector<Block> blocks_;
 };
 
-/// Solves screened Poisson problems of one size directly.
+/// Solves screened Poisson problems of one size directly, METHODS (33).
 ///
-/// The matrix of the normal equations is A = alpha^2 + Dx^T Dx + Dy^T Dy. A row's Dx^T Dx, the second difference
-/// with free ends, has the cosine waves c_k(x) = cos(pi k (2x + 1) / (2 width)) for eigenvectors, with eigenvalues
-/// lambda_k = 4 sin^2(pi k / (2 width)). With I and b as matrices [y, x] and C the cosine transform
+/// The matrix of the normal equations is A = alpha^2 + Dx^T Dx + Dy^T Dy. Dx^T Dx of a row is the second
+/// difference with free ends. Its eigenvectors are the cosine waves c_k(x) = cos(pi k (2x + 1) / (2 width)), with
+/// eigenvalues lambda_k = 4 sin^2(pi k / (2 width)). With I and b as matrices [y, x] and C the cosine transform
 /// (DCT-II) of rows,
 ///     (alpha^2 + Dy^T Dy) I + I Dx^T Dx = b   becomes, for the columns u_k of I C and b_k of b C,
 ///     (alpha^2 + lambda_k + Dy^T Dy) u_k = b_k :
-/// one tridiagonal equation for each k. So: transform the rows, solve down the columns, transform back. Rows are
-/// transformed side by side in vector lanes, and columns are solved side by side.
+/// one tridiagonal system for each k. The solver transforms the rows, solves along the columns, and transforms
+/// back. Vector lanes hold different rows during transforms, and different columns during solves.
 ///
-/// The transform wants widths that are products of 2, 3 and 5. Any other width is solved on the next such width
-/// with a source that makes up for the columns that are too many (BorderSource).
+/// Transforms need widths that are products of 2, 3 and 5. Any other width is solved on the next such width, with
+/// a source that compensates for the additional columns (BorderSource).
 ///
-/// Rounding in low frequencies is blown up by 1 / alpha^2: for small alpha the answer is refined by solving once
-/// or twice again for what it still lacks, A u = b - A I.
+/// Rounding errors of low frequencies are amplified by 1 / alpha^2. For small alpha the solution is refined once
+/// or twice by solving for the defect, A u = b - A I.
 class PoissonSolver {
 public:
-    /// `width` and `height` are >= 1.
+    /// @param width, height  >= 1
     PoissonSolver(int width, int height);
     ~PoissonSolver();
 
-    /// The memory that a solver for images of that size takes, if it works on so many threads.
+    /// Returns the bytes of a solver for images of that size, used by so many threads.
     static std::uint64_t bytes(int width, int height, int threads);
 
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// The answer, in `image`, which is resized if need be and must not be one of the problem's. The same bits for
-    /// any parallel_for. Allocates in the first call and when alpha changes; one call at a time.
+    /// Writes the solution to `image`, which is resized and must not be an image of the problem. The result has
+    /// the same bits for any parallel_for. Allocates in the first call and when alpha changes. One call at a time.
     void solve(const PoissonProblem& problem, RgbImage& image, const ParallelFor& parallel_for = serial_for);
 
-    /// The answer for a right side b that is at hand, without refinement: for alpha >= 0.1.
+    /// Writes the solution for a given right side b, without refinement: for alpha >= 0.1.
     void solve(const RgbImage& right_side, float alpha, RgbImage& image,
                const ParallelFor& parallel_for = serial_for);
 
@@ -115,17 +115,17 @@ private:
     LaneDct dct_;
     TridiagonalColumns columns_;
     BorderSource border_source_; ///< used if the transform is longer than the image is wide
-    float alpha_ = 0;            ///< what columns_ and border_source_ are prepared for; 0: nothing yet
+    float alpha_ = 0;            ///< alpha that columns_ and border_source_ are prepared for; 0: none
 
     std::vector<float> spectrum_;     ///< wave k of row y of a channel, at place(channel, y, k)
-    std::vector<float> jump_weights_; ///< of BorderSource, for each k
+    std::vector<float> jump_weights_; ///< weights of BorderSource, for each k
     std::vector<float> source_weights_;
-    std::vector<float> block_jumps_; ///< what each block of columns adds to jumps_
-    std::vector<double> jumps_;      ///< channel by channel, row by row; as is sources_
+    std::vector<float> block_jumps_; ///< contribution of each block of columns to jumps_
+    std::vector<double> jumps_;      ///< channel by channel, row by row, as sources_
     std::vector<float> sources_;
 
     std::mutex scratch_mutex_;
-    std::vector<std::unique_ptr<Scratch>> free_scratch_; ///< one for each thread that was at work at one time
+    std::vector<std::unique_ptr<Scratch>> free_scratch_; ///< one for each thread that worked at the same time
 };
 
 } // namespace tessera

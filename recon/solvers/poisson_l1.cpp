@@ -12,17 +12,17 @@ namespace tessera {
 namespace {
 
 constexpr int band_rows = 16;
-constexpr int chunk_pixels = 64; // worked on at a time: their arrays stay in the L1 cache
+constexpr int chunk_pixels = 64; // pixels processed at a time: their arrays stay in the L1 cache
 constexpr int chunk_values = 3 * chunk_pixels;
 
-// Thresholds in units of a typical pixel: a high one moves far, and in the end falling ones settle. Measured over
-// noisy renders; a factor of 2 in any makes a difference of a few iterations.
+// Thresholds t in units of typical_value(). A high one moves far per iteration; falling ones settle in the end.
+// A factor of 2 in any of them costs a few iterations.
 constexpr float first_threshold = 0.5f, warm_threshold = 0.05f, least_threshold = 0.1f, decay = 0.9f;
 constexpr float settling_decay = 0.6f;
 constexpr int settling_iterations = 6;
 constexpr float over_relaxation = 1.7f; // [Boyd et al. 2011, 3.4.3]: 1.5 to 1.8
 
-// Inner problems need not have the weight of the outer one, and below this they would have to be refined.
+// Least beta: inner problems need not have the problem's alpha, and a smaller one would need refinement.
 constexpr float least_beta = 0.1f;
 
 float* values(RgbImage& image, int y) {
@@ -33,14 +33,14 @@ const float* values(const RgbImage& image, int y) {
     return &image.row(y)->x;
 }
 
-/// How a term turns w = q - g into the dual variable u.
+/// How a term clamps w = q - g to the dual variable u.
 enum class Cut { joint, scale };
 
-/// factors[i] such that u = factors[i] w[i], for `count` pixels.
+/// Writes factors with u = factors[i] w[i], for `count` pixels.
 void cut_factors(Cut cut, float threshold, int count, const float* w, float* factors) {
     switch (cut) {
     case Cut::joint: {
-        // There are three loops, of which the second, with all the square roots, fills vectors.
+        // The second of three loops has all square roots, and vectorises.
         float length[chunk_pixels];
         for (int i = 0; i < count; ++i)
             length[i] = w[3 * i] * w[3 * i] + w[3 * i + 1] * w[3 * i + 1] + w[3 * i + 2] * w[3 * i + 2];
@@ -58,22 +58,23 @@ void cut_factors(Cut cut, float threshold, int count, const float* w, float* fac
 
 } // namespace
 
-/// What is the same for all pixels of an iteration.
+/// Parameters of an iteration that are the same for all pixels.
 struct L1Solver::Step {
-    float relaxation; ///< 0: q stays, which sets up the right side for it
-    float resume;     ///< 1: q lies there as q - g, and is to be taken up again
-    float park;       ///< 1: q is to be left there as q - g
+    float relaxation; ///< 0: q stays, and only the right side is set up
+    float resume;     ///< 1: q is stored as q - g, from the last solve; g is added first
+    float park;       ///< 1: q is stored as q - g for the next solve
     float beta;
-    float old_dual_scale;  ///< of u: thresholds that change scale it
-    float next_dual_scale; ///< of u in the iteration to come
+    float old_dual_scale;  ///< ratio of this threshold to the last, which scales u
+    float next_dual_scale; ///< the same ratio in the next iteration
     Cut primal_cut;
-    float old_threshold, threshold;               ///< of the gradients
-    float old_primal_threshold, primal_threshold; ///< of primal_cut
+    float old_threshold, threshold;               ///< last and current t of the gradients
+    float old_primal_threshold, primal_threshold; ///< the same of the primal
 };
 
 namespace {
 
-/// One term at `count` pixels: replaces q by that for K I, and writes what the next inner solve aims at, d - u.
+/// Updates one term at `count` pixels: replaces q by that for K I, and writes d - u, the target of the next inner
+/// solve.
 struct TermUpdate {
     Cut cut;
     float old_threshold, threshold;
@@ -121,7 +122,7 @@ float typical_value(const RgbImage& image) {
 L1Solver::L1Solver(int width, int height) : solver_(width, height) {}
 
 std::uint64_t L1Solver::bytes(int width, int height, int threads) {
-    constexpr std::uint64_t images = 4; // its members, but for the borders
+    constexpr std::uint64_t images = 4; // its members, without borders_
     const auto rows = static_cast<std::uint64_t>(height);
     return PoissonSolver::bytes(width, height, threads) +
            sizeof(Rgb) * static_cast<std::uint64_t>(width) * (images * rows + (rows + band_rows - 1) / band_rows);
@@ -147,7 +148,7 @@ int L1Solver::solve(const PoissonProblem& problem, const L1Settings& settings, R
     const int iterations = warm ? settings.warm_iterations : settings.cold_iterations;
     float threshold = (warm ? warm_threshold : first_threshold) * scale;
     float last = warm ? threshold_ : threshold;
-    threshold_ = 0; // if stopped, q is of no use
+    threshold_ = 0; // a stopped solve leaves q invalid
     for (int i = 0; i < iterations; ++i) {
         if (!watch.goes_on(i, iterations))
             return 0;
@@ -171,9 +172,9 @@ int L1Solver::solve(const PoissonProblem& problem, const L1Settings& settings, R
     return iterations;
 }
 
-// The data themselves, with outliers that stick out by some typical pixels cut: a least squares solution could
-// not bear them. Pixels must lie near what their neighbours and the gradients say, and then gradients near those
-// of the pixels.
+// Starts from the data with outliers clamped, since a least squares solution would spread them. Pixels are clamped
+// to what their neighbours and the gradients predict, give or take some typical values; then gradients to the
+// pixels' differences.
 void L1Solver::start(const PoissonProblem& problem, float scale, RgbImage& image,
                      const ParallelFor& parallel_for) {
     const int width = solver_.width(), height = solver_.height();
@@ -217,7 +218,7 @@ void L1Solver::start(const PoissonProblem& problem, float scale, RgbImage& image
     });
 }
 
-/// Makes one iteration: a pass over the images, and an inner solve.
+/// Performs one iteration: a pass over the images, and an inner solve.
 void L1Solver::iterate(const PoissonProblem& problem, const Step& step, RgbImage& image,
                        const ParallelFor& parallel_for) {
     const int bands = borders_.height(), row_values = 3 * solver_.width();
@@ -231,7 +232,8 @@ void L1Solver::iterate(const PoissonProblem& problem, const Step& step, RgbImage
     solver_.solve(right_side_, step.beta, image, parallel_for);
 }
 
-/// A row adds to the right side of its own pixels and of those below, which in the last row are another band's.
+/// Updates a band of rows. Each row adds to the right side of its own pixels and of the row below, which may
+/// belong to the next band.
 void L1Solver::update_band(const PoissonProblem& problem, const Step& step, const RgbImage& image, int band) {
     const int first = band * band_rows, end = std::min(first + band_rows, solver_.height());
     std::fill_n(right_side_.row(first), solver_.width(), Rgb(0));
@@ -239,8 +241,8 @@ void L1Solver::update_band(const PoissonProblem& problem, const Step& step, cons
         update_row(problem, step, image, y, y + 1 < end ? values(right_side_, y + 1) : values(borders_, band));
 }
 
-/// Adds to row y of the right side, b = beta^2 (d - u)_primal + Dx^T (d - u)_dx + Dy^T (d - u)_dy, and writes what
-/// the row below gets from this one.
+/// Adds to row y of the right side, b = beta^2 (d - u)_primal + Dx^T (d - u)_dx + Dy^T (d - u)_dy, and writes the
+/// contribution to the row below.
 void L1Solver::update_row(const PoissonProblem& problem, const Step& step, const RgbImage& image, int y,
                           float* below) {
     const int width = solver_.width();
@@ -274,7 +276,7 @@ void L1Solver::update_row(const PoissonProblem& problem, const Step& step, const
         float* out = values(right_side_, y) + from;
         for (int i = 0; i < 3 * count; ++i)
             out[i] += weight * primal_target[i] + dx_target[i] - dx_target[i + 3] - dy_target[i];
-        std::copy_n(dx_target + 3 * count, 3, dx_target); // what the next chunk gets from this one
+        std::copy_n(dx_target + 3 * count, 3, dx_target); // carried to the next chunk
     }
 }
 

@@ -13,7 +13,7 @@ const float* values(const Rgb* pixels) {
     return &pixels->x;
 }
 
-/// Row y of an image and of its neighbours; at a border the row itself stands for the neighbour that is not there.
+/// Row y of an image and its neighbours. At the border, the row itself replaces a missing neighbour.
 struct Rows {
     Rows(const RgbImage& image, int y)
         : here(values(image.row(y))), above(values(image.row(std::max(y - 1, 0)))),
@@ -24,8 +24,8 @@ struct Rows {
     const float* below;
 };
 
-/// Value i (3 a pixel) of b - A image, or of b alone. `left` and `right` say whether the pixel has such a
-/// neighbour.
+/// Computes value i (3 a pixel) of b - A image, or of b. `left`, `right`, `up` and `down` tell which neighbours
+/// exist.
 class RowEquation {
 public:
     RowEquation(const PoissonProblem& problem, int y)
@@ -89,7 +89,7 @@ struct Defect {
     }
 };
 
-/// Writes pixels [begin, end) of a row of `width`; only the border pixels lack a neighbour at their side.
+/// Writes pixels [begin, end) of a row of `width`. The first and last pixel lack a neighbour.
 template <bool up, bool down, class Source>
 void write_row(const Source& source, int width, int begin, int end, float* out) {
     const auto write = [&]<bool left, bool right>(int first, int last) {
@@ -211,7 +211,7 @@ void BorderSource::solve(const double* jumps, float* sources, const ParallelFor&
 
 int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& image,
                        const ParallelFor& parallel_for, const SolveWatch& watch) {
-    constexpr float share = 0.2f; // of each of four neighbours and the pixel itself
+    constexpr float weight = 0.2f; // of each of four neighbours and the pixel itself
     const int width = problem.primal.width(), height = problem.primal.height();
     const PoissonProblem gradients{problem.primal, problem.dx, problem.dy, 0};
     image = problem.primal;
@@ -222,7 +222,7 @@ int average_neighbours(const PoissonProblem& problem, int iterations, RgbImage& 
         parallel_for(height, [&](int y) {
             poisson_defect(gradients, image, y, 0, width, &next.row(y)->x);
             for (int x = 0; x < width; ++x)
-                next(x, y) = image(x, y) + share * next(x, y);
+                next(x, y) = image(x, y) + weight * next(x, y);
         });
         std::swap(image, next);
     }

@@ -14,9 +14,9 @@ namespace tessera {
 
 namespace {
 
-constexpr double rounding = 1e-13; // of the squared error: the square of a float's
+constexpr double rounding = 1e-13; // relative squared error that floats can resolve
 
-/// r = b - A I.
+/// Sets r = b - A I.
 void residual(const PoissonProblem& problem, const EdgeWeights& weights, const RgbImage& image, RgbImage& r,
               const ParallelFor& parallel_for) {
     const int width = image.width(), height = image.height();
@@ -32,7 +32,7 @@ void residual(const PoissonProblem& problem, const EdgeWeights& weights, const R
     });
 }
 
-/// w = A z; returns r z and w z.
+/// Sets w = A z, and returns the scalar products r z and w z.
 std::array<Channels, 2> apply(const EdgeWeights& weights, float alpha, const RgbImage& z, const RgbImage& r,
                               RgbImage& w, const ParallelFor& parallel_for) {
     const int width = z.width(), height = z.height();
@@ -67,8 +67,8 @@ void WeightedSolver::make_room(const ParallelFor& parallel_for) {
             *kept = filled_image(width_, height_, Rgb(0), parallel_for);
 }
 
-/// Adds as much of the last correction as brings the answer nearest to the optimum: a line search in each channel.
-/// False: there is nothing to be tried, as after a black image.
+/// Scales the last correction to the optimum along it, by a line search in each channel. Returns false if it is
+/// zero, as after a black image.
 bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const EdgeWeights& weights,
                                          const ParallelFor& parallel_for) {
     const auto [rc, cc] = apply(weights, problem.alpha, correction_, residual_, applied_, parallel_for);
@@ -84,7 +84,7 @@ bool WeightedSolver::try_last_correction(const PoissonProblem& problem, const Ed
     return total(cc) > 0;
 }
 
-/// Adds steps to the correction; returns how many. What is not finite empties all that is kept.
+/// Adds steps to the correction, and returns their number. Numbers that are not finite clear all kept images.
 int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& weights, int iterations,
                             const ParallelFor& parallel_for, const SolveWatch& watch) {
     StepFactors factors;
@@ -101,7 +101,7 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
         if (i == 0)
             first = total(rz);
         if (!(total(rz) > rounding * first))
-            return i; // solved, as far as floats can tell
+            return i; // solved to the precision of floats
         factors.take(rz, wz);
         const Factors turns = factors.turns(), steps = factors.steps();
         parallel_for(height_, [&](int y) {
@@ -113,8 +113,8 @@ int WeightedSolver::descend(const PoissonProblem& problem, const EdgeWeights& we
     return iterations;
 }
 
-/// Adds the correction to the start, and to the correction what is missing of the primal's mean. A takes the same
-/// colour in every pixel to alpha^2 times that, so that this much of the optimum is known exactly.
+/// Shifts the correction so that the image keeps the primal's mean, and adds it to the image. A maps a constant
+/// image to alpha^2 times that image, so that the mean of the solution is known exactly.
 void WeightedSolver::add_correction(const RgbImage& primal, RgbImage& image, const ParallelFor& parallel_for) {
     std::vector<Channels> rows(primal.height());
     parallel_for(primal.height(), [&](int y) {
@@ -152,7 +152,7 @@ int WeightedSolver::solve(const PoissonProblem& problem, const EdgeWeights& weig
     }
     if (!correction_.empty())
         add_correction(problem.primal, image, parallel_for);
-    else // numbers were too large, and if even the right side's were, that must not look like an answer
+    else // numbers overflowed; a residual that is not finite makes the image NaN
         for (std::size_t i = 0; i < image.size(); ++i)
             image.data()[i] += 0.0f * residual_.data()[i];
     return std::max(steps, 1);

@@ -1,5 +1,5 @@
-// Rows of weighted normal equations, and the sums and steps of conjugate gradients on them: what solvers with a
-// weight for each gradient have in common.
+// Rows of weighted normal equations, and the sums and steps of conjugate gradients, for solvers with a weight for
+// each gradient.
 #pragma once
 
 #include "recon/image.h"
@@ -11,10 +11,10 @@
 
 namespace tessera {
 
-inline constexpr int chunk_pixels = 64; // worked on at a time: their arrays stay in the L1 cache
+inline constexpr int chunk_pixels = 64; // pixels processed at a time: their arrays stay in the L1 cache
 inline constexpr int chunk_values = 3 * chunk_pixels;
 
-/// A number for each channel.
+/// One number for each channel.
 using Channels = std::array<double, 3>;
 
 inline const float* values(const RgbImage& image, int x, int y) {
@@ -31,13 +31,13 @@ inline void spread(const float* weights, int count, float* out) {
         out[3 * i] = out[3 * i + 1] = out[3 * i + 2] = weights[i];
 }
 
-/// Writes row y of V + Dx^T w_x G_x + Dy^T w_y G_y to out. V, G_x and G_y are given by calls (x, y, count, to)
-/// that write 3 values for each of `count` pixels from (x, y) on.
+/// Writes row y of V + Dx^T w_x G_x + Dy^T w_y G_y to out. V, G_x and G_y are functions (x, y, count, to) that
+/// write 3 values for each of `count` pixels from (x, y) on.
 template <class V, class Gx, class Gy>
 void write_row(const EdgeWeights& weights, int y, const V& v, const Gx& g_x, const Gy& g_y, float* out) {
     const int width = weights.x.width(), height = weights.x.height();
     float weight[chunk_values], flux[chunk_values];
-    float to_right[3 + chunk_values] = {}; // flux from one pixel to the next, that into the chunk's first in front
+    float to_right[3 + chunk_values] = {}; // flux from each pixel to the next; the first is into the chunk
     for (int x = 0; x < width; x += chunk_pixels) {
         const int count = std::min(chunk_pixels, width - x), right = std::min(count, width - 1 - x);
         float* sum = out + 3 * x;
@@ -65,9 +65,9 @@ void write_row(const EdgeWeights& weights, int y, const V& v, const Gx& g_x, con
     }
 }
 
-inline constexpr int period = 24; // values of all channels that fill whole vectors
+inline constexpr int period = 24; // multiple of 3 channels and of the vector length
 
-/// The sums of the products of `count` pixels, channel by channel.
+/// Returns the scalar products of `count` pixels, channel by channel.
 inline Channels products(const float* a, const float* b, int count) {
     Channels sums{};
     for (int first = 0; first < 3 * count; first += chunk_values) {
@@ -97,8 +97,8 @@ inline Channels total(const std::vector<Channels>& rows) {
     return sum;
 }
 
-/// G of write_row(): what the differences of `image` lack of `gradient`. `next`: values from a pixel to its
-/// neighbour.
+/// Returns G of write_row(): `gradient` minus the differences of `image`.
+/// @param next  number of values from a pixel to its neighbour
 inline auto misfits(const RgbImage& gradient, const RgbImage& image, int next) {
     return [&gradient, &image, next](int x, int row, int count, float* out) {
         const float *given = values(gradient, x, row), *own = values(image, x, row);
@@ -107,7 +107,7 @@ inline auto misfits(const RgbImage& gradient, const RgbImage& image, int next) {
     };
 }
 
-/// G of write_row(): the differences of `image`.
+/// Returns G of write_row(): the differences of `image`.
 inline auto differences(const RgbImage& image, int next) {
     return [&image, next](int x, int row, int count, float* out) {
         const float* own = values(image, x, row);
@@ -116,7 +116,7 @@ inline auto differences(const RgbImage& image, int next) {
     };
 }
 
-/// A number for each channel, over and over: the factors of `period` values.
+/// The numbers of three channels, repeated for `period` values.
 struct Factors {
     explicit Factors(const Channels& channels) {
         for (int i = 0; i < period; ++i)
@@ -126,11 +126,11 @@ struct Factors {
     float value[period];
 };
 
-/// The factors of the steps of conjugate gradients, channel by channel, in the form that needs all its sums at one
-/// time [Chronopoulos and Gear 1989]. Each is 0 where there is nothing left to solve.
+/// Factors of the steps of conjugate gradients, channel by channel, in the form that needs all scalar products of
+/// a step at once [Chronopoulos and Gear 1989]. A channel without residual has factors of 0.
 class StepFactors {
 public:
-    /// From r z and w z of the step to come, where w = A z.
+    /// Computes the factors of the next step from r z and w z, where w = A z.
     void take(const Channels& rz, const Channels& wz) {
         for (int c = 0; c < 3; ++c) {
             turn_[c] = step_[c] > 0 ? rz[c] / rz_[c] : 0;
@@ -146,7 +146,7 @@ private:
     Channels rz_{}, turn_{}, step_{};
 };
 
-/// The step of one row: p = z + turn p, s = w + turn s, c += step p, r -= step s, where w = A z and s = A p.
+/// Takes the step in one row: p = z + turn p, s = w + turn s, c += step p, r -= step s, where w = A z and s = A p.
 inline void take_step(const Factors& turn, const Factors& step, int count, const float* __restrict z,
                       const float* __restrict w, float* __restrict p, float* __restrict s,
                       float* __restrict correction, float* __restrict r) {

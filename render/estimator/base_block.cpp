@@ -7,7 +7,8 @@
 namespace tessera {
 
 namespace {
-void refuse_if_not_finite(const Pass& pass, const Tracer& tracer, glm::ivec2 pixel, BasePath& path) {
+/// Rejects and counts an invalid path, and leaves it empty.
+void reject_if_invalid(const Pass& pass, const Tracer& tracer, glm::ivec2 pixel, BasePath& path) {
     if (is_finite(path.radiance() + path.very_direct))
         return;
     tracer.counters.refuse({pass.index, pixel.y, pixel.x});
@@ -20,7 +21,7 @@ void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, gl
     inside_ = inside;
     number_ = number;
     mixed_.clear();
-    glimpse_of_.clear();
+    first_vertex_of_.clear();
     const auto count = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
     if (paths_.size() < count)
         paths_.resize(count);
@@ -34,17 +35,18 @@ void BaseBlock::trace(const Pass& pass, const Tracer& tracer, PixelRect rect, gl
 
 void BaseBlock::see_from(const Pass& pass, const Tracer& tracer, int position) {
     const CameraSample from = pass.sample_at(position, inside_, number_);
-    glimpse_of_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), -1);
-    if (glimpses_.size() < mixed_.size())
-        glimpses_.resize(mixed_.size());
+    first_vertex_of_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()),
+                            -1);
+    if (first_vertices_.size() < mixed_.size())
+        first_vertices_.resize(mixed_.size());
     for (std::size_t i = 0; i < mixed_.size(); ++i) {
         const glm::ivec2 p = mixed_[i];
         if (pass.turn(p) == position)
             continue;
-        glimpse_of_[index(p.x, p.y)] = static_cast<std::int16_t>(i);
+        first_vertex_of_[index(p.x, p.y)] = static_cast<std::int16_t>(i);
         trace_first_vertex(tracer, pass.camera_ray(p.x, p.y, from), pass.pixel_width(),
-                           pass.random(p.x, p.y, number_), glimpses_[i]);
-        refuse_if_not_finite(pass, tracer, p, glimpses_[i]);
+                           pass.random(p.x, p.y, number_), first_vertices_[i]);
+        reject_if_invalid(pass, tracer, p, first_vertices_[i]);
     }
 }
 
@@ -59,7 +61,7 @@ void MeanOfPaths::add(const Pass& pass, const BasePath& path, int count) {
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number) {
     trace_base_path(tracer, pass.camera_ray(x, y, from), pass.pixel_width(), pass.random(x, y, number), path);
-    refuse_if_not_finite(pass, tracer, {x, y}, path);
+    reject_if_invalid(pass, tracer, {x, y}, path);
 }
 
 bool is_guiding_path(const Pass& pass, const Random& random) {

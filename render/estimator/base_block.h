@@ -1,8 +1,8 @@
 #pragma once
 
-#include "render/paths/base_path.h"
 #include "render/estimator/pass.h"
 #include "render/film/albedo_moments.h"
+#include "render/paths/base_path.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace tessera {
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number = 0);
 
-/// Mean over several base paths of a pixel.
+/// Mean over several base paths of a pixel that reuses no paths, METHODS (21).
 struct MeanOfPaths {
     Rgb coefficient{0}, very_direct{0};
     AlbedoMoments<Rgb> moments; ///< of albedo and radiance
@@ -39,11 +39,13 @@ public:
     bool is_mixed() const { return !mixed_.empty(); }
     /// Traces what the mixed pixels see from a position.
     void see_from(const Pass& pass, const Tracer& tracer, int position);
-    /// Returns what a pixel sees from the position of the last see_from(): its base path; or only x_1, for a mixed
-    /// pixel whose path is reused at another position. Returns the base path without see_from() since trace().
+    /// Returns what a pixel sees from the position of the last see_from(): its base path; or only x_1, for a
+    /// mixed pixel whose path is reused at another position. Returns the base path without see_from() since
+    /// trace().
     const BasePath& seen(int x, int y) const {
         const std::size_t i = index(x, y);
-        return i < glimpse_of_.size() && glimpse_of_[i] >= 0 ? glimpses_[glimpse_of_[i]] : paths_[i];
+        return i < first_vertex_of_.size() && first_vertex_of_[i] >= 0 ? first_vertices_[first_vertex_of_[i]]
+                                                                       : paths_[i];
     }
 
     /// Returns the storage for the mean of a pixel that reuses no paths; undefined until the caller sets it.
@@ -62,9 +64,9 @@ private:
     std::vector<MeanOfPaths> means_;
     glm::ivec2 inside_{0};
     int number_ = 0;
-    std::vector<glm::ivec2> mixed_;        ///< pixels
-    std::vector<std::int16_t> glimpse_of_; ///< index into glimpses_ by pixels; -1: the pixel sees its base path
-    std::vector<BasePath> glimpses_;       ///< paths of one vertex; never shrinks
+    std::vector<glm::ivec2> mixed_;             ///< pixels
+    std::vector<std::int16_t> first_vertex_of_; ///< index into first_vertices_, by pixel; -1: base path
+    std::vector<BasePath> first_vertices_;      ///< paths of one vertex; never shrinks
 };
 
 /// Returns whether the base path with these random numbers is a guiding path: later passes learn from it.

@@ -12,15 +12,15 @@ namespace tessera {
 
 namespace {
 
-// With orthonormal functions a diffuse surface's s^l are A_k / pi times the harmonics of its normal, A = pi,
-// 2 pi / 3, pi / 4, 0 by degree k [Ramamoorthi 2001], so that the sum of their squares is (1 + 4/3 + 5/16) / (4
-// pi). With functions as short as the root of that, theirs is 1.
+// Length of the functions. With orthonormal functions, s^l of a diffuse surface is A_k / pi times the harmonics
+// of its normal, A = pi, 2 pi / 3, pi / 4, 0 by degree k [Ramamoorthi 2001], and the sum of squares is (1 + 4/3 +
+// 5/16) / (4 pi). With functions of a length of the root of that, it is 1.
 constexpr float length = 0.458907f;
 
-/// The least g that light is divided by, in g of a diffuse surface at its zenith.
-constexpr float least_of_albedo = 0.3f * inv_pi;
+/// g_0, 0.3 times g of a diffuse surface in the direction of its normal (TRIALS.md, "Parts of light").
+constexpr float g_0 = 0.3f * inv_pi;
 
-/// Numbers of lanes side by side.
+/// One vector of lanes.
 using Eight = float __attribute__((vector_size(lanes_a_vector * sizeof(float))));
 
 Eight load(const FloatLanes& lanes, int first) {
@@ -29,8 +29,7 @@ Eight load(const FloatLanes& lanes, int first) {
     return numbers;
 }
 
-/// Real spherical harmonics up to degree 3, degree by degree; the first `parts` of them. Of one direction, or of
-/// eight.
+/// Evaluates the first `parts` real spherical harmonics, degree by degree up to 3, for one direction or eight.
 template <class Number>
 void harmonics(int parts, Number x, Number y, Number z, Number* values) {
     values[0] = 0 * x + length * 0.282095f;
@@ -56,9 +55,9 @@ void harmonics(int parts, Number x, Number y, Number z, Number* values) {
 }
 
 constexpr int boxes = 9;
-constexpr float height_of_box = length * 0.846284f; // one over the root of its solid angle
+constexpr float height_of_box = length * 0.846284f; // 1 / sqrt(solid angle of a box)
 
-/// Which of nine boxes of the same solid angle a direction is in: three slices of z, each cut into three of
+/// Returns the box of a direction. Nine boxes have the same solid angle: three slices of z, each with three of
 /// azimuth.
 int box_of(glm::vec3 d) {
     constexpr float sin_120 = 0.866025f;
@@ -130,7 +129,7 @@ void ArrivingLight::reset(Basis basis, std::span<const Rgb> albedos) {
     while (light_.size() < static_cast<std::size_t>(parts_))
         light_.push_back(std::make_unique<Vec3Lanes>());
     for (int m = 0; m < padded(count_); ++m)
-        least_f_cos_.set(m, m < count_ ? glm::max(least_of_albedo * albedos[m], 1e-20f) : Rgb(1));
+        least_f_cos_.set(m, m < count_ ? glm::max(g_0 * albedos[m], 1e-20f) : Rgb(1));
     for (int l = 0; l < parts_; ++l)
         for (int m = 0; m < padded(count_); ++m)
             part(l).set(m, Rgb(0));
@@ -152,7 +151,7 @@ void ArrivingLight::add_eight(int first, const FirstScatter& scatter, const Vec3
     };
     const Eight t[3] = {arriving(r, scatter.f_cos.x, least_f_cos_.x), arriving(g, scatter.f_cos.y, least_f_cos_.y),
                         arriving(b, scatter.f_cos.z, least_f_cos_.z)};
-    // Where nothing is carried, directions may be anything.
+    // Directions are undefined in lanes without light.
     const auto direction = [&](const FloatLanes& lanes) { return carries ? load(lanes, first) : Eight{}; };
     const Eight x = direction(scatter.direction.x), y = direction(scatter.direction.y),
                 z = direction(scatter.direction.z);

@@ -12,64 +12,64 @@
 
 namespace tessera {
 
-// Lossless Basis Expansion [Fang 2024], in tiles and with antialiasing (METHODS.md, The basis: parts of light).
+// Lossless Basis Expansion [Fang 2024] with tiles and antialiasing, METHODS (30) and (31).
 //
-// Where a pixel's x_1 scatters light that arrives along w by g(w) = f cos / a, a its albedo, what the pixel gets
-// is e = integral of g h, with h the light from there. In functions b^l(w) that all pixels have in common, g is
-// the sum of s^l b^l and a residual r = g - sum s^l b^l. The residual is dealt out over them [Fang 2024, eq. 17, n
-// = 2],
-//     b_m^l = b^l + w^l r ,   w^l = s^l / sum of (s^k)^2 ,
-// so that g is the sum of s^l b_m^l whatever numbers s^l are, and e that of s^l e^l, path by path. The parts
-//     e^l = integral of b_m^l h = w^l e + B^l - w^l sum of s^k B^k ,   B^l = integral of b^l h ,
-// are smooth where normals and roughnesses are not. So all that a base path has to bring beside its radiance is
-// B^l, the light that arrives, before it is scattered, in each of the functions: ArrivingLight.
+// x_1 of a pixel with albedo a scatters light from direction w by g(w) = f cos / a, so the coefficient of the
+// pixel is e = integral of g h, with arriving radiance h. All pixels use the same functions b^l(w). g is the sum
+// of s^l b^l and of a residual r, which is distributed over the functions [Fang 2024, eq. 17 with n = 2]:
+//     b_m^l = b^l + w^l r ,   w^l = s^l / sum of (s^k)^2
+// So g = sum of s^l b_m^l and e = sum of s^l e^l hold for any numbers s^l, for each path. The components
+//     e^l = integral of b_m^l h = w^l e + B^l - w^l sum of s^k B^k ,   B^l = integral of b^l h
+// are smooth even where normals and roughnesses are not. Beside its radiance, a base path contributes only to
+// B^l: the light that arrives at x_1, before it is scattered (ArrivingLight).
 
 inline constexpr int most_parts = 16;
 
-/// How many functions b^l the basis has; 0: it expands nothing.
+/// Returns the number of functions b^l of a basis; 0: it has no components.
 int part_count(Basis basis);
-/// How many parts the light of a render is measured in.
+/// Returns the number of basis components of a render.
 inline int part_count(const RenderSettings& s) {
     return is_expanded(s) ? part_count(s.basis) : 0;
 }
 
-/// The functions b^l in a unit direction (world), part_count() of them: orthogonal, and of one length. By that
-/// length the projection of a diffuse surface has a length of about 1, so that misfits of parts weigh as those of
-/// e do in the reconstruction.
+/// Evaluates the part_count() functions b^l in a unit direction (world). They are orthogonal and have the same
+/// length. With this length, the projection of a diffuse surface has a length of about 1, so a misfit of
+/// components weighs as much as a misfit of e in the reconstruction.
 void evaluate_basis(Basis basis, glm::vec3 direction, float* values);
 
-/// s^l of length 1 for what scatters light from everywhere alike.
+/// Sets `s` to the projection, of length 1, of a surface that scatters light equally from all directions.
 void project_evenly(Basis basis, float* s);
 
-/// Adds to `sums` the s^l of a vertex that a camera ray has met, the integrals of b^l g over the square of b^l's
-/// length, as luminances, from `directions` samples of its BSDF, which are alike for all vertices. What is
-/// scattered by delta parts counts as if it arrived from everywhere.
+/// Adds to `sums` the projection s^l of a vertex that a camera ray hits: the luminance of the integral of b^l g,
+/// over the squared length of b^l. It is estimated with `directions` samples of the BSDF, from the same numbers
+/// for all vertices. Light by delta scatters counts as if it arrived equally from all directions.
 void project(const Vertex& x, Basis basis, int directions, float* sums);
 
-/// B^l of the pixels of a sampling set, a lane a pixel.
+/// Sums of B^l for the pixels of a sampling set, one lane for each pixel.
 ///
-/// A light path of value c brings b^l(w) c / (f cos). As BSDF sampling has g for its density, that would have a
-/// variance without bound where g goes to 0, at the horizon and beside lobes. So it brings
-/// b^l(w) c / max(f cos, least a): as if b^l were smaller there, which the residual makes up for. Delta scatters
-/// bring nothing: all of theirs is residual.
+/// A light path with c_m adds b^l(w) c_m / max(f cos, g_0 a), with g_0 = 0.3 / pi. Without g_0 the variance is
+/// unbounded where g goes to 0, at the horizon and beside lobes, because BSDF sampling has a pdf like g. This
+/// scales b^l down there, and the residual makes up for it, so the expansion stays lossless. Delta scatters add
+/// nothing; all of their light is in the residual.
 class ArrivingLight {
 public:
-    /// For so many pixels, of which none has got anything. No functions: nothing is kept.
+    /// Sets all sums to 0, for pixels with these albedos. Keeps nothing if the basis has no components.
     void reset(Basis basis, std::span<const Rgb> albedos);
 
     int parts() const { return parts_; }
     bool is_kept() const { return parts_ > 0; }
 
+    /// Adds light paths in all lanes.
     /// @param scatter  at y_1 of each lane
-    /// @param carried  values c of light paths that go through it, times their weights
+    /// @param carried  weighted sum of c_m over the light paths through this scatter
     void add(const FirstScatter& scatter, const Vec3Lanes& carried);
-    /// The same in one lane.
+    /// Adds light paths in one lane.
     void add(int lane, glm::vec3 direction, Rgb f_cos, Rgb carried);
 
-    /// The parts e^l of what pixel m got.
-    /// @param coefficient  e: all that it got, over its albedo
+    /// Computes the components e^l of pixel m, METHODS (31).
+    /// @param coefficient  e, the radiance over the albedo
     /// @param projection   s^l
-    /// @param parts        receives as many
+    /// @param parts        receives parts() components
     void expand(int m, Rgb coefficient, const float* projection, Rgb* parts) const;
 
 private:

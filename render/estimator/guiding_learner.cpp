@@ -10,7 +10,7 @@
 namespace tessera {
 
 DirectionMap::DirectionMap(const Shares& shares) {
-    // Whole units that add up to all there are: differences of rounded sums.
+    // Differences of rounded sums are whole numbers that add up to `units`.
     std::array<unsigned, bins> left;
     double sum = 0;
     unsigned before = 0;
@@ -21,13 +21,13 @@ DirectionMap::DirectionMap(const Shares& shares) {
         left[b] = now - before;
         before = now;
     }
-    // No bin has all, as then its number of units would not fit: its neighbour has one.
+    // A bin with all units would overflow Slot::units, so the next bin gets one.
     for (unsigned b = 0; b < bins; ++b)
         if (left[b] == units)
             --left[b], ++left[(b + 1) % bins];
     for (unsigned b = 0; b < bins; ++b)
         slots_[b] = {units_a_slot - 1, static_cast<std::uint8_t>(b), static_cast<std::uint16_t>(left[b])};
-    // As in AliasTable, but in whole units.
+    // The same method as AliasTable, in whole units.
     std::array<unsigned, bins> small, large;
     std::size_t smalls = 0, larges = 0;
     for (unsigned b = 0; b < bins; ++b)
@@ -45,7 +45,7 @@ DirectionMap::DirectionMap(const Shares& shares) {
 }
 
 TriedShares squares_by_share(float value, float pdf_w, float guided, float used) {
-    const float own = std::max(pdf_w - used * guided, 0.0f) / (1 - used); // of the BSDF
+    const float own = std::max(pdf_w - used * guided, 0.0f) / (1 - used); // p_BSDF, METHODS (22)
     TriedShares squares;
     for (std::size_t i = 0; i < squares.size(); ++i)
         squares[i] = value * value * (pdf_w / ((1 - tried_shares[i]) * own + tried_shares[i] * guided));
@@ -54,25 +54,24 @@ TriedShares squares_by_share(float value, float pdf_w, float guided, float used)
 
 namespace {
 
-constexpr int cells_along = 12; // of the grid's longest side
-// How many paths are learnt from: of the first pass; of later ones, until there are twice as many; of each of
-// these at least; and such a part of them while nothing is drawn from guides.
+// docs/decisions.md justifies prior_share, least_gain and max_remaining; the other constants are not tuned.
+constexpr int cells_along = 12; // along the longest side of the grid
+// Guiding paths: in pass 0; in all passes from 2^n to 2^(n+1) - 1; at least in each pass; and the fraction of
+// these while no direction is drawn from guides (fraction_of_paths).
 constexpr int first_paths = 1 << 16, most_paths = 1 << 18, least_paths = 1 << 10;
-constexpr float undrawn = 0.25f;
-constexpr int halvings = 2;         // of which coarser grids are made, which tell of cells where little was found
-constexpr double least_samples = 8; // of which a map is made, or that tell of shares
-constexpr float prior_samples = 4;  // that the coarser cell's map, or evenness, counts as
+constexpr float idle_fraction = 0.25f;
+constexpr int halvings = 2;         // number of coarser grids, whose cells are priors
+constexpr double least_samples = 8; // effective number of samples for a guide, and for a share
+constexpr float prior_samples = 4;  // weight of the prior, in samples
 
-// Of shares: that of a guide of which nothing is known yet, and what the second moment without a guide must be
-// undercut by, as guided paths cost more. (With 1/2, and 32 samples to tell, a mirror beside a rough lobe had
-// twice the variance, and Veach, Ajar gained no more; with 0 it gains less.)
-constexpr float first_share = 0.25f, least_gain = 0.1f;
-// And of a scene, where guiding is to draw only where it pays: unguided paths tell of 0.79 in Veach, Ajar, guided
-// ones of less; of 0.94 and more in rooms where the time it takes is about as much as it saves.
-constexpr double most_left = 0.85;
+// Share of a guide without samples that estimate it; and the least relative reduction of the second moment,
+// because guided paths cost more.
+constexpr float prior_share = 0.25f, least_gain = 0.1f;
+// With Guiding::where_it_pays, the largest left_of_squares() of a guided scene.
+constexpr double max_remaining = 0.85;
 
-/// Numbers of squares of bins: of the whole, of its quarters, and so on down to single bins.
-class Squares {
+/// A value for the square of bins, for its quarters, and so on down to single bins.
+class Quadtree {
 public:
     static constexpr int levels = std::bit_width(unsigned{DirectionMap::edge});
 
@@ -80,8 +79,8 @@ public:
     float at(int level, int x, int y) const { return numbers_[place(level, x, y)]; }
     float* bins() { return &at(levels - 1, 0, 0); } ///< row by row
 
-    static Squares sums_of(const DirectionMap::Shares& bins) {
-        Squares sums;
+    static Quadtree sums_of(const DirectionMap::Shares& bins) {
+        Quadtree sums;
         std::ranges::copy(bins, sums.bins());
         for (int level = levels - 2; level >= 0; --level)
             for (int y = 0; y < 1 << level; ++y)
@@ -100,12 +99,14 @@ private:
     std::array<float, ((1 << 2 * levels) - 1) / 3> numbers_;
 };
 
-/// Shares 1 out among the quarters of the whole, and so on: by what was found there as far as that stands on many
-/// samples, and by the prior as far as on few.
-DirectionMap::Shares share_out(const Squares& first, const Squares& second, const Squares& prior) {
-    Squares shares;
+/// Returns the probabilities of bins. It divides 1 among the quarters of the square, and on down to bins, in
+/// proportion to the mean of the found irradiance, weighted by its effective number of samples, and the prior,
+/// weighted by prior_samples.
+/// @param first, second  sums of irradiance and of its square
+DirectionMap::Shares distribute(const Quadtree& first, const Quadtree& second, const Quadtree& prior) {
+    Quadtree shares;
     shares.at(0, 0, 0) = 1;
-    for (int level = 0; level + 1 < Squares::levels; ++level)
+    for (int level = 0; level + 1 < Quadtree::levels; ++level)
         for (int i = 0; i < 1 << 2 * level; ++i) {
             const int x = i & ((1 << level) - 1), y = i >> level;
             const float all = first.at(level, x, y), squares = second.at(level, x, y),
@@ -167,12 +168,12 @@ double GuidingLearner::Sums::samples() const {
     return all_squares > 0 ? all * all / all_squares : 0;
 }
 
-double GuidingLearner::Sums::told() const {
+double GuidingLearner::Sums::share_samples() const {
     const double samples = fourth > 0 ? squares[0] * squares[0] / fourth : 0;
     return samples >= least_samples ? samples : 0;
 }
 
-std::size_t GuidingLearner::Sums::best_tried() const {
+std::size_t GuidingLearner::Sums::best_share() const {
     const auto best = std::ranges::min_element(squares);
     const bool pays = *best < (1 - least_gain) * squares[0];
     return pays ? static_cast<std::size_t>(best - squares.begin()) : 0;
@@ -185,22 +186,23 @@ float GuidingLearner::fraction_of_paths(int pixels, int index, bool draws) {
     if (index == 0)
         return share(first_paths);
     const auto passes = static_cast<float>(std::bit_floor(static_cast<unsigned>(index)));
-    return std::max(share(most_paths) / passes, share(least_paths)) * (draws ? 1 : undrawn);
+    return std::max(share(most_paths) / passes, share(least_paths)) * (draws ? 1 : idle_fraction);
 }
 
 std::uint64_t GuidingLearner::bytes_of_found(int pixels) {
-    constexpr std::uint64_t vertices = 4; // of a path that finds light, as they mostly are
+    constexpr std::uint64_t vertices = 4; // usual for a path that finds light
     return static_cast<std::uint64_t>(std::min(pixels, most_paths)) * vertices * sizeof(FoundLight);
 }
 
 std::uint64_t GuidingLearner::bytes_of_learnt() {
-    // Beside the cells and their guides, the coarser ones, and the guides that are still drawn from. (Surfaces are
-    // in few of all cells, so that there is room for the halves of the first pass.)
+    // Twice, for the coarser grids and for the guides in use. Few cells contain surfaces, which leaves room for
+    // the two halves of the first pass.
     constexpr std::uint64_t cells = std::uint64_t{cells_along} * cells_along * cells_along * GuidingGrid::sides;
     return 2 * cells * (sizeof(Sums) + sizeof(DirectionGuide));
 }
 
-/// Around nearly all places: a few may be far away, seen through a window. None: there is no grid yet.
+/// Sets the grid to percentiles 1 to 99 of the positions, because some can be far away, as behind a window.
+/// Without samples, it sets none.
 void GuidingLearner::lay_grid(std::span<const std::vector<FoundLight>> found) {
     glm::vec3 high;
     std::vector<float> places;
@@ -236,10 +238,10 @@ void GuidingLearner::learn(std::span<const std::vector<FoundLight>> found) {
             add(f, guiding_.get());
 }
 
-/// So that the next pass is guided, if that pays: paths that are told by what they have made themselves would find
-/// that it does everywhere.
+/// Learns from the first pass. Guides made from the same samples that evaluate them would seem to pay everywhere,
+/// so each half of the samples evaluates the guides of the other half.
 void GuidingLearner::learn_by_halves(std::span<const std::vector<FoundLight>> found) {
-    constexpr std::size_t run = 64; // what a path has found stays together mostly
+    constexpr std::size_t run = 64; // consecutive samples of one half: most paths stay in one half
     const auto for_each = [&](const auto& visit) {
         std::size_t i = 0;
         for (const std::vector<FoundLight>& block : found)
@@ -290,17 +292,17 @@ DirectionGuide GuidingLearner::guide_of(const Sums& sums, const DirectionGuide* 
     for (int b = 0; b < DirectionMap::bins; ++b)
         expected[b] = prior ? prior->map.share(b) : 1.0f / DirectionMap::bins;
     const DirectionMap::Shares shares =
-        share_out(Squares::sums_of(sums.first), Squares::sums_of(sums.second), Squares::sums_of(expected));
-    const float unknown = prior ? prior->share : first_share;
-    return {DirectionMap(shares), sums.told() > 0 ? tried_shares[sums.best_tried()] : unknown};
+        distribute(Quadtree::sums_of(sums.first), Quadtree::sums_of(sums.second), Quadtree::sums_of(expected));
+    const float unknown = prior ? prior->share : prior_share;
+    return {DirectionMap(shares), sums.share_samples() > 0 ? tried_shares[sums.best_share()] : unknown};
 }
 
 double GuidingLearner::left_of_squares() const {
     double logs = 0, all = 0;
     for (const std::unique_ptr<Sums>& sums : cells_)
-        if (const double told = sums ? sums->told() : 0; told > 0) {
-            logs += told * std::log(sums->squares[sums->best_tried()] / sums->squares[0]);
-            all += told;
+        if (const double share_samples = sums ? sums->share_samples() : 0; share_samples > 0) {
+            logs += share_samples * std::log(sums->squares[sums->best_share()] / sums->squares[0]);
+            all += share_samples;
         }
     return all > 0 ? std::exp(logs / all) : 1;
 }
@@ -309,7 +311,7 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
     if (cells_.empty())
         return {};
     std::vector<DirectionGuide> guides;
-    std::vector<int> above; // of the coarser grid, which guide a cell has
+    std::vector<int> above; // index of the guide of each cell of the coarser grid; -1: none
     for (int times = halvings; times >= 0; --times) {
         const GuidingGrid grid = coarser(times), coarse = coarser(times + 1);
         const Cells cells = merged(times);
@@ -319,7 +321,7 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
             if (!above.empty())
                 guide_of_cell[i] = above[coarse.index(cell >> 1, side)];
             const double samples = cells[i] ? cells[i]->samples() : 0;
-            if (!(samples >= least_samples)) // nor where sums have become too large for floats
+            if (!(samples >= least_samples)) // true for NaN, of sums that overflow
                 return;
             const int prior = std::exchange(guide_of_cell[i], static_cast<int>(guides.size()));
             guides.push_back(guide_of(*cells[i], prior < 0 ? nullptr : &guides[prior]));
@@ -327,7 +329,7 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
         above = std::move(guide_of_cell);
     }
     const double left = left_of_squares();
-    if (when == Guiding::off || (when == Guiding::where_it_pays && left >= most_left))
+    if (when == Guiding::off || (when == Guiding::where_it_pays && left >= max_remaining))
         for (DirectionGuide& guide : guides)
             guide.share = 0;
     guiding_ = std::make_shared<const PathGuiding>(grid_, std::move(above), std::move(guides), left);

@@ -9,14 +9,13 @@ namespace tessera {
 
 namespace {
 
-/// Size of the reuse set where V = l = 1. Of 5, 10 and 20, 10 is best on kitchen, bathroom, living-room and
-/// veach-ajar together.
+/// Size of the reuse set where V = l = 1: N = 10 V / l, in pixels.
 constexpr double usual_set_size = 10;
 
-constexpr double most_paths_alone = 12;
+constexpr double most_paths_alone = 12; // not tuned
 
 /// Weight of the picture's mean rho in a cell's rho, as a number of paths with light. Without it, chance decides
-/// on cells with few such paths. 2 changes little; with 8, cells that should not reuse paths do.
+/// on cells with few such paths.
 constexpr double paths_of_mean = 4;
 
 double rho_of(const CellStatistics& known) {
@@ -106,9 +105,9 @@ int LearnedReuse::split_edge(PixelRect piece) const {
     return adapts_ && paths_alone(piece) == 0 ? best_split_edge(known_of(piece)) : tile_;
 }
 
-/// Returns the cost of a sample with path reuse, in samples of path tracing. The model fits the times of 11 scenes
-/// to within 25 %. Rays of offset paths are cheaper than others: they are traced in packets, and end at vertices
-/// of the base path or at lights.
+/// Returns the cost of a sample with path reuse, in samples of path tracing; the constants are fitted to measured
+/// times. Rays of offset paths are cheaper than others: they are traced in packets, and end at vertices of the
+/// base path or at lights.
 double LearnedReuse::cost_of_sharing(const CellStatistics& known) const {
     constexpr double own = 1.7, a_ray = 0.55;
     const double edge = best_split_edge(known), set = (edge + 1) * (edge + 1); // with G-PR's column and row

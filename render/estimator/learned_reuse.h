@@ -1,8 +1,8 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/paths/path_guiding.h"
 #include "render/io/memory.h"
+#include "render/paths/path_guiding.h"
 #include "render/settings/settings.h"
 
 #include <algorithm>
@@ -36,13 +36,13 @@ struct CellStatistics {
     CellStatistics& operator+=(const CellStatistics& more);
 };
 
-/// What a render learns from its earlier passes for the next ones: into which splits each tile is divided before
-/// its pixels reuse each other's paths, where pixels reuse no paths, and where to guide base paths.
+/// State that a render learns from its earlier passes for the next ones: how each tile is split before its pixels
+/// reuse each other's paths, where pixels reuse no paths, and where to guide base paths.
 ///
 /// With a reuse set of N pixels, the error of a pixel falls about as V N^(-a). V is the relative variance of its
-/// base paths. Measured values of a are 0.15 (a room with direct light) to 0.3 (a room lit through a door). The
-/// work grows as l N, where l is the fraction of paths that carry light, because only these are shifted. The total
-/// error falls fastest for its total work where every place has the same gain for its cost,
+/// base paths, and a is about 0.15 to 0.3. The work grows as l N, where l is the fraction of paths that carry
+/// light, because only these are shifted. The total error falls fastest for its total work where every place has
+/// the same gain for its cost,
 ///   d(V N^(-a)) / d(l N) = constant,   so that   N ~ (V / l)^(1 / (1 + a)).
 /// The program omits the exponent, which is near 1. Tiles stay whole where few paths find light; where paths have
 /// nearly equal radiance, tiles are split down to single pixels and their neighbours. The result does not depend
@@ -51,7 +51,7 @@ struct CellStatistics {
 /// The noise of gradients shows the benefit of reuse. rho is the length of that noise with reuse, divided by its
 /// length for plain differences of base paths; it is a mean over sets, weighted by the roots of the latter. rho^2
 /// is about the remaining fraction of the squared error. If rho^2 times the cost in samples of path tracing
-/// exceeds 1, the pixels of a cell reuse no paths: each takes the mean of several base paths of its own. Their
+/// exceeds 1, the pixels of a cell reuse no paths: each takes the mean of several base paths, METHODS (21). Their
 /// number is the mean cost of reuse elsewhere, so a pass takes about as long everywhere. The pilot pass measures
 /// rho in small sets, where it is about as large as in whole tiles.
 ///
@@ -69,8 +69,8 @@ public:
     void take(const LearnedReuse& next, int pass);
 
     /// Calls `visit(piece)` for the parts of a tile that are split independently: the whole tile, or its
-    /// intersections with the cells if only some of these reuse paths. So each pixel either always or never reuses
-    /// paths; otherwise its few noisy samples would spoil the many good ones.
+    /// intersections with the cells if only some of these reuse paths. So each pixel either always or never
+    /// reuses paths; otherwise its few noisy samples would spoil the many good ones.
     template <class Visit>
     void for_each_piece(PixelRect tile, Visit&& visit) const;
 
@@ -112,7 +112,7 @@ public:
     /// @param mixed  1 for each mixed pixel; null: no method uses it
     void set_mixed(std::shared_ptr<const Image<std::uint8_t>> mixed) { mixed_ = std::move(mixed); }
 
-    /// Returns all memory that passes change, except that of path guiding.
+    /// Returns all memory that passes change, except the memory of path guiding.
     Memory memory() {
         return {memory_of(first_pass_), memory_of(cells_), memory_of(gain_), memory_of(paths_alone_)};
     }

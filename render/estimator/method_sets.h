@@ -59,9 +59,10 @@ void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& 
         }
 }
 
-/// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without them
-/// the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all, paths_alone)`;
-/// T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it (LearnedReuse::paths_alone).
+/// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without
+/// them the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all,
+/// paths_alone)`; T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it
+/// (LearnedReuse::paths_alone).
 template <class Visit>
 void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
     pass.grid.for_each_split(block, [&](PixelRect inner, int paths_alone) {
@@ -104,7 +105,7 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
 }
 
 /// Does the same for the sets that contribute to a pixel: for G-PR all sets of its block that contain it,
-/// including those of the tiles above and on the left. The path inspector uses them.
+/// including the sets of the tiles above and on the left. The path inspector uses them.
 template <class Visit>
 void for_each_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& visit) {
     if (pass.settings.method != Method::gpr || pass.grid.paths_alone_at(p) > 0)

@@ -14,8 +14,8 @@ namespace tessera {
 namespace {
 
 /// Adds a sample to the film. At the edges of directly visible emitters, several camera rays replace its directly
-/// visible emission (Pass::very_direct): such rays are cheap, and no other pixel reuses their result. The pre-pass
-/// finds these edges, because edges that samples find would bias pixels with a small emitter upward.
+/// visible emission (Pass::very_direct): such rays are cheap, and no other pixel reuses their result. The
+/// pre-pass finds these edges, because edges that samples find would bias pixels with a small emitter upward.
 void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& worker, Film& film) {
     if (film.has_lamp_edge(x, y))
         sample.very_direct = pass.very_direct(worker.tracer, x, y);
@@ -39,8 +39,8 @@ std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, 
     return worker.own_parts;
 }
 
-/// Path tracing: T = {k}, so R = 1, and c_k has the weights of emitter against BSDF sampling that every base path
-/// takes [Veach 1997].
+/// Path tracing: T = {k}, so R = 1, and the pixel gets c_k of METHODS (4), with the MIS weights of emitter and
+/// BSDF sampling [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     for (int y = area.y0; y < area.y1; ++y)
@@ -105,8 +105,8 @@ void for_each_position(const Pass& pass, PixelRect block, Worker& worker, Visit&
     }
 }
 
-/// Path reusing: T is a tile or an N-rooks pattern [Bekaert 2002]; with the shift that copies half vectors it is
-/// generalized path reusing [Bauszat 2017, 3.1].
+/// Path reusing: T is a tile or an N-rooks pattern, and each pixel gets METHODS (9) [Bekaert 2002]; with the
+/// shift that copies half vectors it is generalized path reusing [Bauszat 2017, 3.1].
 void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area, worker);
@@ -118,9 +118,10 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for_each_square(area, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
 }
 
-/// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that reuse each
-/// other's base paths. The primal is the mean over the sets of the pixel with each of its neighbours; a pixel
-/// without neighbours has that of path tracing. A pixel's counters cover the shifts to it.
+/// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that reuse
+/// each other's base paths, METHODS (13). The primal is the mean over the sets of the pixel with each of its
+/// neighbours; a pixel without neighbours has its path-traced radiance. A pixel's counters cover the shifts to
+/// it.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // The gradients of the last pixels need the base paths of one more column and row.
@@ -133,8 +134,9 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for_each_square(area, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
 }
 
-/// Computes the means of `count` base paths for each pixel of worker.set, which reuses no paths. Pixels of the
-/// border get the radiance of their first path; if they are in a later set without reuse, that set overwrites it.
+/// Computes the means of `count` base paths, METHODS (21), for each pixel of worker.set, which reuses no paths.
+/// Pixels of the border get the radiance of their first path; if they are in a later set without reuse, that set
+/// overwrites it.
 void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     for (glm::ivec2 p : worker.set.pixels) {
         MeanOfPaths& mean = worker.base.mean(p.x, p.y) = {};
@@ -148,8 +150,9 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     }
 }
 
-/// Adds pixels that reuse no paths. Their gradients are plain differences of their means, so a reconstruction
-/// returns these means. Gradients across the block's border and to pixels with reuse differ slightly.
+/// Adds pixels that reuse no paths. Their gradients are plain differences of their means, METHODS (21), so a
+/// reconstruction returns these means. Gradients across the block's border and to pixels with reuse differ
+/// slightly.
 void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Worker& worker, Film& film) {
     for (int y = inner.y0; y < inner.y1; ++y)
         for (int x = inner.x0; x < inner.x1; ++x) {
@@ -166,9 +169,9 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
         }
 }
 
-/// Gradient-domain path reusing [Bauszat 2017]. Each pixel m of T receives c_m / R from every light path of T, so
-/// a gradient is the sum of (c_n - c_m) / R; with albedo demodulation, the sum of (c_n / a_n - c_m / a_m) / R,
-/// because one albedo divides all radiance of a pixel.
+/// Gradient-domain path reusing [Bauszat 2017]. Each pixel m of T receives c_m / R from every light path of T,
+/// METHODS (9), so a gradient is the sum of (c_n - c_m) / R, METHODS (13). With albedo demodulation it is the sum
+/// of (c_n / a_n - c_m / a_m) / R, METHODS (27), because one albedo divides all radiance of a pixel.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);

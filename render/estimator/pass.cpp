@@ -1,7 +1,7 @@
 #include "render/estimator/pass.h"
 
-#include "render/paths/base_path.h"
 #include "render/estimator/guiding_learner.h"
+#include "render/paths/base_path.h"
 
 #include <bit>
 

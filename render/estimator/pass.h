@@ -39,8 +39,8 @@ public:
     const TileGrid grid;
     const float guiding_fraction; ///< of the base paths: later passes learn guides from these
 
-    /// Returns the camera sample of a pixel. All pixels whose base paths are reused within one block have the same
-    /// sample, including the block's border. So the values of the box filter cancel in gradients [Bauszat
+    /// Returns the camera sample of a pixel. All pixels whose base paths are reused within one block have the
+    /// same sample, including the block's border. So the values of the box filter cancel in gradients [Bauszat
     /// 2017, 3.2], and all these pixels see the scene through one pinhole, with a sharp picture. PT's pixels have
     /// samples of their own. All samples are nets over the passes with different digital shifts: one net for each
     /// pixel of PT, or for each square of 8 x 8 blocks. With the same few positions for a whole image, edges
@@ -60,14 +60,13 @@ public:
     }
     /// Returns the position at which a pixel's base path is reused, if any pixel of its set is mixed.
     int turn(glm::ivec2 pixel) const { return numbers_.turn(pixel); }
-    /// Returns the camera sample of a pixel's base path: for a mixed pixel, that of its turn's position.
+    /// Returns the camera sample of a pixel's base path, at the position of its turn if the pixel is mixed.
     /// @param inside  any pixel of the block whose pixels reuse the path
     CameraSample base_sample(glm::ivec2 pixel, glm::ivec2 inside, int path = 0) const {
         return sample_at(is_mixed(pixel) ? turn(pixel) : PassNumbers::only, inside, path);
     }
     CameraSample base_sample(glm::ivec2 pixel, int path = 0) const { return base_sample(pixel, pixel, path); }
-    /// Returns the camera sample of one position of mixed pixels, or of PassNumbers::only, that of all other
-    /// pixels.
+    /// Returns the camera sample of one position of mixed pixels. PassNumbers::only stands for all other pixels.
     CameraSample sample_at(int position, glm::ivec2 inside, int path) const;
 
     Ray camera_ray(int x, int y, const CameraSample& sample) const {
@@ -79,11 +78,11 @@ public:
     /// net share a row or a column, in contrast to a grid, so vertical and horizontal edges have little noise.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
-    /// Returns the albedo by which a base path's radiance is divided: that of x_1, or of the surface that mirrors
-    /// show there; black where the path sees nothing; 1 if settings.basis has no albedo.
+    /// Returns the albedo a of METHODS (27) by which a base path's radiance is divided: that of x_1, or of the
+    /// surface that mirrors show there; black where the path sees nothing; 1 if settings.basis has no albedo.
     Rgb albedo_of(const BasePath& path) const;
-    /// Takes feature sample `point` of a pixel. The points of a pixel are a net that is independent of the passes'
-    /// samples, so means of albedos are, too.
+    /// Takes feature sample `point` of a pixel. The points of a pixel are a net that is independent of the
+    /// passes' samples, so means of albedos are, too.
     FeatureSample feature_sample(const Tracer& tracer, int x, int y, int point) const;
     /// Traces a camera ray through point `point` of a pixel, the same for all seeds. Returns false if it hits
     /// nothing.

@@ -7,14 +7,14 @@
 
 namespace tessera {
 
-// The largest tile, with the column and row that G-PR adds to it.
+// The largest tile with the column and row that G-PR adds to it must fit into the lanes.
 static_assert((most_tile + 1) * (most_tile + 1) <= most_lanes);
 
 void PathReuse::begin(std::span<const BasePath* const> set, std::span<const float> counts) {
-    // Lanes are looked up without a check. Settings are checked long before; this is for who assembles sets anew.
+    // Access to lanes is unchecked. Settings limit the size of tiles; this guards sets of other callers.
     if (set.size() > most_lanes)
         throw std::logic_error(
-            fmt::format("a sampling set of {} pixels, where there are lanes for {}", set.size(), most_lanes));
+            fmt::format("a sampling set has {} pixels; the limit is {}", set.size(), most_lanes));
     set_ = set;
     counts_ = counts;
     primary_.reset(0);
@@ -23,7 +23,7 @@ void PathReuse::begin(std::span<const BasePath* const> set, std::span<const floa
 void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLight* arriving) {
     const BasePath& path = *set_[base];
     base_ = base;
-    tried_ = false;
+    is_tried_ = false;
     if (path.empty())
         return;
     radiance[base] += kept_light(path);
@@ -31,15 +31,15 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLi
         return;
     light_.reset(path, settings_);
     for (int slot = 0; arriving && slot < std::min(light_.first_shared(), light_.slot_count()); ++slot)
-        add_own(path, slot, 1, base, *arriving);
+        add_own_arriving(path, slot, 1, base, *arriving);
     if (scale == 0 || light_.last_alive() < light_.first_shared())
-        return; // where the base carries nothing, no offset can
-    tried_ = true;
+        return; // a base path without light is not shifted
+    is_tried_ = true;
     paths_.reset(light_.slot_count(), static_cast<int>(set_.size()), arriving != nullptr);
     if (onlooker_)
         onlooker_->begins(paths_.offsets(), light_.slot_count());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
-    judge(base);
+    settle_outcomes(base);
     balance(base, scale, radiance);
     if (arriving)
         balance_parts(base, scale, *arriving);
@@ -48,7 +48,7 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLi
 void PathReuse::keep(const BasePath& path, int lane, ArrivingLight& arriving) {
     light_.reset(path, settings_);
     for (int slot = 0; slot <= light_.last_alive(); ++slot)
-        add_own(path, slot, 1, lane, arriving);
+        add_own_arriving(path, slot, 1, lane, arriving);
 }
 
 void PathReuse::shift_to_all(int base) {
@@ -65,10 +65,9 @@ void PathReuse::shift_to_all(int base) {
     edges_.resolve(tracer_, paths_, lost_);
 }
 
-/// Random replay: every pixel takes the base's numbers all the way. In the space of these numbers the shift is the
-/// identity, whatever strategy a light path ends by: its ratio is 1 and its value that of the offset's own path,
-/// with the MIS weights there [Hua 2019, 3.1]. A light path that brings nothing has ratio 0, for base and offset
-/// alike.
+/// Random replay: every pixel traces a path with the base's random numbers [Hua 2019, 3.1]. In the space of these
+/// numbers the shift is the identity, for each strategy alone: r_m is 1, and c_m is the slot of the offset's own
+/// path, with its MIS weights. A slot without light, of base or offset, has r_m = 0.
 void PathReuse::replay_to_all(int base) {
     const BasePath& path = *set_[base];
     replayed_scatters_.clear();
@@ -88,14 +87,14 @@ void PathReuse::replay_to_all(int base) {
             if (light_.is_alive(slot))
                 paths_.row(slot).set(m, 1, replayed_light_.carried(slot));
         if (paths_.keeps_scatters())
-            keep_scatters_of_replay(m);
+            record_replayed_scatters(m);
         if (onlooker_)
-            tell_of_replay(m);
+            notify_of_replay(m);
     }
 }
 
-/// How the path that was replayed for pixel m leaves y_1.
-void PathReuse::keep_scatters_of_replay(int m) {
+/// Stores the scatters by which the path replayed for pixel m leaves y_1.
+void PathReuse::record_replayed_scatters(int m) {
     const BaseVertex& y = replayed_[0];
     const LightSample& l = replayed_.light(0);
     FirstScatter &toward_light = *replayed_scatters_[0], &onward = *replayed_scatters_[1];
@@ -105,9 +104,8 @@ void PathReuse::keep_scatters_of_replay(int m) {
     onward.f_cos.set(m, y.is_delta ? Rgb(FirstScatter::infinite) : y.f_cos);
 }
 
-/// Tells the onlooker of the path that was replayed for pixel m. In the space of random numbers all Jacobians
-/// are 1.
-void PathReuse::tell_of_replay(int m) {
+/// Reports the path replayed for pixel m to the observer. All Jacobians are 1 in the space of random numbers.
+void PathReuse::notify_of_replay(int m) {
     Rgb throughput(1);
     for (int i = 0; i < replayed_.size(); ++i) {
         const BaseVertex& y = replayed_[i];
@@ -126,8 +124,8 @@ void PathReuse::tell_of_replay(int m) {
     }
 }
 
-/// Settles the outcomes of all shifts and counts them.
-void PathReuse::judge(int base) {
+/// Determines the outcomes of all shifts and counts them.
+void PathReuse::settle_outcomes(int base) {
     for (int m = 0; m < padded(paths_.offsets()); ++m)
         arrived_[m] = 0;
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
@@ -153,12 +151,13 @@ void PathReuse::judge(int base) {
 
 float PathReuse::ratio_sum(int slot) const {
     const OffsetRow& row = paths_.row(slot);
-    float sum = counts_[base_]; // the base itself: its ratio is one by definition
+    float sum = counts_[base_]; // r_k = 1; the lane of the base is 0
     for (int m = 0; m < paths_.offsets(); ++m)
         sum += counts_[m] * row.ratio[m];
     return sum;
 }
 
+/// Adds c_m / R of all light paths to the pixels, METHODS (9) and (20).
 void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
         if (!light_.is_alive(slot))
@@ -171,8 +170,9 @@ void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
     }
 }
 
-/// What a slot of a base path brings to its own pixel, in parts.
-void PathReuse::add_own(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const {
+/// Adds the arriving light of a slot to the base's own pixel.
+void PathReuse::add_own_arriving(const BasePath& path, int slot, float factor, int lane,
+                                 ArrivingLight& arriving) const {
     const Rgb carried = light_.carried(slot) * factor;
     if (is_black(carried))
         return;
@@ -185,10 +185,11 @@ void PathReuse::add_own(const BasePath& path, int slot, float factor, int lane, 
     }
 }
 
-/// Light paths through the same first scatter are summed before they are looked at by direction.
+/// Adds the arriving light of all light paths to the pixels. It sums light paths with the same first scatter
+/// before it evaluates the basis in their direction.
 void PathReuse::balance_parts(int base, float scale, ArrivingLight& arriving) {
     const int count = padded(paths_.offsets());
-    int index = -1; // of the scatter whose light is summed
+    int index = -1; // of the first scatter whose light is being summed
     const auto flush = [&](int next) {
         if (index >= 0)
             arriving.add(paths_.first_scatter(index), carried_);
@@ -201,11 +202,11 @@ void PathReuse::balance_parts(int base, float scale, ArrivingLight& arriving) {
         if (!light_.is_alive(slot))
             continue;
         const float factor = weight(slot, scale);
-        add_own(*set_[base], slot, factor, base, arriving);
+        add_own_arriving(*set_[base], slot, factor, base, arriving);
         if (paths_.scatter_index(slot) != index)
             flush(paths_.scatter_index(slot));
         if (index < 0)
-            continue; // no offset has such a path
+            continue; // no offset path has this slot
         const OffsetRow& row = paths_.row(slot);
         for (int m = 0; m < count; ++m) {
             carried_.x[m] += row.value.x[m] * factor;

@@ -9,60 +9,60 @@
 
 namespace tessera {
 
-/// The estimator of all methods. Given a sampling set T, pixels whose base paths take part, it adds to each
-/// pixel m
-///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x),
-///   R(x) = sum over n in T of g_n r_n(x),
-/// where c_m and r_m are value and ratio of x shifted to m (OffsetRow): the balance heuristic over all pixels of T
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8], derived in METHODS.md, The weight. A method is a choice of T;
-/// differences between pixels of one T are gradients.
+/// The estimator of all methods. For a sampling set T, it adds to each pixel m of T
+///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x)   METHODS (9) and (20)
+///   R(x) = sum over n in T of g_n r_n(x)                                       METHODS (8) and (20)
+/// c_m and r_m are value and ratio of x shifted to m (OffsetRow). g is 1 unless T has several camera positions.
+/// 1/R is the weight of the balance heuristic over all pixels of T [Bekaert 2002, 4; Bauszat 2017, eq. 8],
+/// derived in METHODS (10) to (12). A method is a choice of T. Differences between pixels of one T are gradients,
+/// METHODS (13).
 class PathReuse {
 public:
     PathReuse(const Tracer& tracer, const ShiftSettings& settings)
         : tracer_(tracer), settings_(settings), shift_(tracer, settings) {}
 
-    /// Begins with another sampling set.
-    /// Throws std::logic_error for more than most_lanes pixels.
-    /// @param set     the base paths of T, one a pixel; they must stay until the next begin()
-    /// @param counts  g, as how many samples each of them counts (SamplingSet::counts); likewise
+    /// Starts another sampling set. Throws std::logic_error for more than most_lanes pixels.
+    /// @param set     base paths of T, one for each pixel; must stay valid until the next begin()
+    /// @param counts  g of each base path (SamplingSet::counts); must stay valid until the next begin()
     void begin(std::span<const BasePath* const> set, std::span<const float> counts);
 
-    /// @param base      the path whose light is shared out, an index into the set
-    /// @param scale     factor on what is shared: one over the probability that this path is reused; 0: it is
-    ///                  not, and only the light that is never shifted is added, to the base's own
-    ///                  pixel
-    /// @param radiance  one a pixel of T; what the path brings is added
-    /// @param arriving  a lane a pixel of T; likewise. Null: nobody wants to know
+    /// Shifts one base path to all pixels of T and adds its light to them, METHODS (9).
+    /// @param base      index of the base path in the set
+    /// @param scale     1/q of Russian roulette on reuse. 0: the path is not reused, and only its light that is
+    ///                  never shifted is added, to its own pixel.
+    /// @param radiance  sums of all pixels of T
+    /// @param arriving  sums for basis components, one lane for each pixel of T; null: not needed
     void share(int base, float scale, std::span<Rgb> radiance, ArrivingLight* arriving = nullptr);
 
-    /// What arrives in parts by a path that is shared with nobody.
+    /// Adds the arriving light of a path that no other pixel reuses.
     void keep(const BasePath& path, int lane, ArrivingLight& arriving);
 
-    /// What of a path's radiance is shifted to the others of its set.
+    /// Returns the radiance of a path that is shifted to the other pixels of its set.
     Rgb shared_light(const BasePath& path) const { return keeps_direct() ? path.indirect : path.radiance(); }
-    /// Luminance of the same as it arrives at x_1, whatever is reflected there: over the albedo. Finite, and
-    /// negative where the path sees nothing.
+    /// Returns the luminance of shared_light() divided by the albedo of x_1. Finite; -1 for an empty path.
     float arriving_luminance(const BasePath& path) const {
         const float l = luminance(shared_light(path) / path.albedo);
         return path.empty() ? -1 : std::min(l, std::numeric_limits<float>::max());
     }
-    /// What of a path's radiance stays with its own pixel.
+    /// Returns the radiance of a path that is never shifted.
     Rgb kept_light(const BasePath& path) const { return keeps_direct() ? path.direct : Rgb(0); }
 
-    /// How the shifts of the last share() to each pixel of T ended; meaningless for the base's own. Empty: no
+    /// Returns the outcome of the last share() for each pixel of T; undefined for the base's own pixel. Empty: no
     /// shift was tried.
-    std::span<const ShiftOutcome> outcomes() const { return {outcomes_.values.data(), tried_ ? set_.size() : 0}; }
+    std::span<const ShiftOutcome> outcomes() const {
+        return {outcomes_.values.data(), is_tried_ ? set_.size() : 0};
+    }
 
-    // What became of the light paths of the last share(), for who wants to look; only where a shift was tried.
+    // Light paths of the last share(), for observers. Valid if a shift was tried.
 
     const LightPaths& light_paths() const { return light_; }
     const OffsetPaths& offset_paths() const { return paths_; }
-    /// Returns g/R of a light path times `scale`, or 0 if the path carries no light.
+    /// Returns the weight g_k / R of a light path, METHODS (9) and (20), times `scale`; 0 if it carries no light.
     float weight(int slot, float scale) const {
         const float count = counts_[base_];
         return light_.is_alive(slot) ? scale * count / ratio_sum(slot) : 0;
     }
-    /// @param onlooker  is told of all that the next share() do; null: nobody is
+    /// Sets the observer of the next share(); null: none.
     void set_onlooker(ShiftOnlooker* onlooker) {
         onlooker_ = onlooker;
         shift_.set_onlooker(onlooker);
@@ -72,34 +72,34 @@ private:
     bool keeps_direct() const { return settings_.shift == ShiftKind::reconnection; }
     void shift_to_all(int base);
     void replay_to_all(int base);
-    void tell_of_replay(int m);
-    void keep_scatters_of_replay(int m);
-    void judge(int base);
+    void notify_of_replay(int m);
+    void record_replayed_scatters(int m);
+    void settle_outcomes(int base);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
-    void add_own(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const;
+    void add_own_arriving(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const;
     void balance_parts(int base, float scale, ArrivingLight& arriving);
-    /// R of a light path.
+    /// Returns R of a light path, METHODS (8) and (20).
     float ratio_sum(int slot) const;
 
     Tracer tracer_;
     ShiftSettings settings_;
     std::span<const BasePath* const> set_;
     std::span<const float> counts_;
-    int base_ = 0;            ///< of the last share()
-    PrimaryVertices primary_; ///< what the pixels of T see; empty until it is needed
+    int base_ = 0;            ///< base path of the last share()
+    PrimaryVertices primary_; ///< x_1 of all pixels of T; empty until the first shift
     Shift shift_;
     LightPaths light_;
     OffsetPaths paths_;
     PendingEdges edges_;
     BasePath replayed_;
     LightPaths replayed_light_;
-    std::vector<FirstScatter*> replayed_scatters_; ///< by emitter slot at y_1, the last of all others
-    Vec3Lanes carried_; ///< by all light paths through one first scatter, times their weights
+    std::vector<FirstScatter*> replayed_scatters_; ///< first of the light sample at y_1, second of all other slots
+    Vec3Lanes carried_; ///< weighted sum of c_m over the light paths through one first scatter
     OutcomeLanes outcomes_;
-    bool tried_ = false;
+    bool is_tried_ = false;
     ShiftOnlooker* onlooker_ = nullptr;
-    LaneMask arrived_; ///< where anything came through
-    LaneMask lost_;    ///< where an edge was blocked
+    LaneMask arrived_; ///< pixels with at least one valid shift
+    LaneMask lost_;    ///< pixels with an occluded edge
 };
 
 } // namespace tessera

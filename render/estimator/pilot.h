@@ -7,9 +7,9 @@
 
 namespace tessera {
 
-/// Pilot pass: measures the gain of path reuse for G-PR before the first pass. It takes two samples of sets of 3 x
-/// 3 pixels, one set per 32 pixels. Differences of the two samples contain noise only, and no gradients of the
-/// picture. The cost is about that of one sample of path tracing.
+/// Pilot pass: measures the gain of path reuse for G-PR before the first pass. It takes two samples of sets of 3
+/// x 3 pixels, one set per 32 pixels. Differences of the two samples contain noise only, and no gradients of the
+/// picture. It costs about as much as one sample of path tracing.
 class Pilot {
 public:
     /// Keeps references, as Pass does. Uses the tiles of `learned` only.

@@ -9,8 +9,8 @@
 namespace tessera {
 
 // The pre-pass measures, before the first pass, what all passes of a render use: which pixels are mixed, where
-// directly visible emitters have edges, and the projections of a basis with components. These samples are not part
-// of the picture.
+// directly visible emitters have edges, and the projections of a basis with components. These samples are not
+// part of the picture.
 
 /// Takes the first feature samples of each pixel of a block.
 void take_feature_samples(const Pass& pass, PixelRect block, Worker& worker, PixelFeatures& features);
@@ -30,7 +30,7 @@ void show_very_direct(const Pass& pass, int view, PixelRect block, const Tracer&
 /// Number of points of a pixel from which its projections are computed.
 inline constexpr int projection_points = 4;
 
-/// Computes the projections of the pixels of a block.
+/// Computes the projections s of METHODS (30) of the pixels of a block.
 void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film);
 
 } // namespace tessera

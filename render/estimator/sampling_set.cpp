@@ -56,8 +56,8 @@ void SetMeans::add(const SamplingSet& set, PixelRect all) {
     }
 }
 
-/// Updates running means, which cannot overflow as sums can. The sets of the first position set the weights; those
-/// of other positions add with the same weights.
+/// Updates running means, which cannot overflow as sums can. The sets of the first position set the weights; the
+/// sets of other positions add with the same weights.
 void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts) {
     const auto pixels = static_cast<float>(set.size());
     if (set.position == 0)

@@ -10,7 +10,8 @@ namespace tessera {
 
 namespace {
 
-/// Computes the counts of a set with several positions.
+/// Computes g of METHODS (20) for a set with several positions: every position that has paths counts for the same
+/// number of samples.
 void balance_turns(const Pass& pass, SamplingSet& set) {
     std::array<int, edge_positions> turns{};
     for (glm::ivec2 p : set.pixels)

@@ -16,10 +16,10 @@ void collect(const Pass& pass, const BaseBlock& block, SamplingSet& set);
 /// Decides by Russian roulette whether base path k of worker.set is reused. Counts the result.
 ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker);
 
-/// Estimates the radiance of all pixels of worker.set from the base paths of all of them. All pixels must be in
-/// worker.base. A set with several positions reuses the base paths whose turn is the current position.
-/// @param kind  a path is reused with the probability q of this kind of ReuseRoulette, and weighs 1/q
-///              [Bauszat 2017, 3.3]
+/// Estimates the radiance of all pixels of worker.set from the base paths of all of them, METHODS (9). All pixels
+/// must be in worker.base. A set with several positions reuses the base paths whose turn is the current position.
+/// @param kind  a path is reused with the probability q of this kind of ReuseRoulette, and weighs 1/q [Bauszat
+///              2017, 3.3]
 /// @param watch is called as watch(k, decision) after path k; worker.reuse then holds the shifts of this path
 template <class Watch>
 void reuse_paths(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& watch) {
@@ -40,6 +40,7 @@ void reuse_paths(const Pass& pass, RouletteKind kind, Worker& worker, Watch&& wa
     set.offset_rays =
         static_cast<float>(worker.counters.offset_work() - rays) / static_cast<float>(std::max(offsets, 1));
 }
+
 /// Calls reuse_paths() without an observer.
 void reuse_paths(const Pass& pass, RouletteKind kind, Worker& worker);
 

@@ -56,7 +56,8 @@ public:
         });
     }
 
-    /// Returns a permutation of the columns of a tile, another one for each tile and pass [Fisher and Yates 1938].
+    /// Returns a permutation of the columns of a tile, another one for each tile and pass [Fisher and Yates
+    /// 1938].
     void shuffle_columns(PixelRect tile, std::vector<int>& columns) const;
     /// Calls `visit(x, y)` for the pixels of N-rooks pattern `index` that lie in the image. A pattern has one
     /// pixel in each row and column of an N x N square. Cyclic shifts of one permutation make N patterns, which
@@ -87,8 +88,8 @@ inline glm::ivec2 origin_of(const RenderSettings& settings, int pass) {
     return -glm::ivec2(random.draw_2d(0, Draw::direction) * static_cast<float>(settings.tile));
 }
 
-/// Returns the square of a pixel in the grid of squares that begins at `corner`. The pixel must not lie left of or
-/// above the corner.
+/// Returns the square of a pixel in the grid of squares that begins at `corner`. The pixel must not lie left of
+/// or above the corner.
 inline PixelRect square_at(glm::ivec2 pixel, glm::ivec2 corner, int edge) {
     const glm::ivec2 min = corner + (pixel - corner) / edge * edge;
     return {min.x, min.y, min.x + edge, min.y + edge};

@@ -12,8 +12,8 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
     constexpr std::uint64_t a_vertex = sizeof(BaseVertex) + sizeof(LightSample);
     const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
                               (settings.method != Method::pt ? SetMeans::bytes(part_count(settings)) : 0);
-    const std::uint64_t a_glimpse = has_positions(settings) ? sizeof(BasePath) + a_vertex : 0;
-    return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex + a_glimpse);
+    const std::uint64_t a_first_vertex = has_positions(settings) ? sizeof(BasePath) + a_vertex : 0;
+    return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex + a_first_vertex);
 }
 
 } // namespace tessera

@@ -3,8 +3,8 @@
 #include "render/estimator/base_block.h"
 #include "render/estimator/path_reuse.h"
 #include "render/estimator/sampling_set.h"
-#include "render/paths/tracer.h"
 #include "render/film/counters.h"
+#include "render/paths/tracer.h"
 #include "render/settings/settings.h"
 
 #include <cstdint>

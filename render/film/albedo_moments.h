@@ -18,9 +18,8 @@ struct AlbedoMoments {
     Color products{0}; ///< of a v
 
     /// Adds one path with albedo a and value v.
-    /// @param weight        of the albedo
-    /// @param value_weight  of the value; differs from `weight` where paths split their value over several
-    /// positions
+    /// @param weight        weight of the albedo
+    /// @param value_weight  weight of the value; differs from `weight` if paths have several camera positions
     void add(Color a, Color v, float weight, float value_weight) {
         value += v * value_weight;
         albedo += a * weight;
@@ -28,7 +27,7 @@ struct AlbedoMoments {
         products += a * v * value_weight;
     }
     /// Adds one sample to the sums.
-    /// @param within  its inner spread: 0 for a sample of one path
+    /// @param within  spread within the sample; 0 for a sample of one path
     void add(Color a, Color v, const AlbedoSpread<Color>& within) {
         value += v;
         albedo += a;
@@ -56,7 +55,7 @@ struct AlbedoMoments {
         products /= n;
     }
 
-    // Of means, not of sums. Rounding can make the variance slightly negative.
+    // These need means, not sums. Rounding can make the variance slightly negative.
 
     Color variance() const { return squares - albedo * albedo; }
     Color covariance() const { return products - albedo * value; }

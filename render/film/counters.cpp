@@ -65,7 +65,7 @@ Counters& Counters::operator+=(const Counters& other) {
 namespace {
 
 /// Returns `part` over `whole`, in [0, 1]; 0 if both are 0.
-float share_of(std::uint32_t part, std::uint32_t whole) {
+float fraction_of(std::uint32_t part, std::uint32_t whole) {
     return static_cast<float>(part) / static_cast<float>(std::max(whole, 1u));
 }
 
@@ -96,15 +96,15 @@ Image<float> ReuseMaps::reused() const {
 
 Image<float> ReuseMaps::share(ShiftOutcome outcome) const {
     const auto i = static_cast<std::size_t>(outcome);
-    return map_of(counts, [i](const ReuseCounts& c) { return share_of(c.shifts[i], c.tried()); });
+    return map_of(counts, [i](const ReuseCounts& c) { return fraction_of(c.shifts[i], c.tried()); });
 }
 
 Image<float> ReuseMaps::failed() const {
-    return map_of(counts, [](const ReuseCounts& c) { return share_of(c.failed(), c.tried()); });
+    return map_of(counts, [](const ReuseCounts& c) { return fraction_of(c.failed(), c.tried()); });
 }
 
 Image<float> ReuseMaps::survival() const {
-    return map_of(counts, [](const ReuseCounts& c) { return share_of(c.reused, c.reused + c.skipped); });
+    return map_of(counts, [](const ReuseCounts& c) { return fraction_of(c.reused, c.reused + c.skipped); });
 }
 
 } // namespace tessera

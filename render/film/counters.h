@@ -17,7 +17,7 @@ namespace tessera {
 enum class ShiftOutcome : std::uint8_t {
     ok,               ///< at least one light path has a valid shift
     occluded,         ///< no valid shift, and a new edge of at least one light path is occluded
-    kind_mismatch,    ///< vertices scatter in different ways, or one edge is short: the way back would be another
+    kind_mismatch,    ///< base and offset differ in the kind of a vertex or edge: the shift has no inverse
     total_reflection, ///< a perfect refraction of the base has no direction at the offset
     outside,          ///< a ray left the scene, or an offset pixel sees nothing
     no_light,         ///< the offset carries nothing: black BSDF, no emitter hit
@@ -25,7 +25,7 @@ enum class ShiftOutcome : std::uint8_t {
 };
 inline constexpr int shift_outcome_count = static_cast<int>(ShiftOutcome::count);
 
-/// The enumerator's own name: "ok", "occluded", "kind_mismatch".
+/// Returns the enumerator's name: "ok", "occluded", "kind_mismatch".
 std::string_view to_string(ShiftOutcome outcome);
 
 /// Purpose of a ray.
@@ -40,7 +40,7 @@ enum class RayKind : std::uint8_t {
 };
 inline constexpr int ray_kind_count = static_cast<int>(RayKind::count);
 
-/// The enumerator's own name: "camera", "bounce", "shift_edge".
+/// Returns the enumerator's name: "camera", "bounce", "shift_edge".
 std::string_view to_string(RayKind kind);
 
 /// An invalid sample: pass and pixel, from 0. With the seed, its path can be traced again.
@@ -69,7 +69,7 @@ struct Counters {
     std::uint64_t camera_paths = 0;  ///< base paths traced
     std::uint64_t path_vertices = 0; ///< surface vertices of base paths
     std::array<std::uint64_t, ray_kind_count> rays{};
-    std::uint64_t remembered = 0; ///< vertices of offset paths that need no ray
+    std::uint64_t remembered = 0; ///< vertices of offset paths that were found without a ray
 
     // Base paths of sampling sets. A path counts once per set.
     std::uint64_t dark_paths = 0;    ///< without light that could be reused
@@ -97,16 +97,16 @@ struct Counters {
     Counters& operator+=(const Counters& other);
 };
 
-/// "3 samples were not finite and were left out; the first is pass 5, pixel (7, 2), seed 0"; empty without such
-/// samples.
+/// Returns a message about invalid samples: "3 samples were not finite and were left out; the first is pass 5,
+/// pixel (7, 2), seed 0"; empty without such samples.
 std::string refused_text(const Counters& counters, std::uint64_t seed);
 
 /// Outcomes of path reuse at one pixel.
 struct ReuseCounts {
     /// Base paths of other pixels that were shifted to this pixel, by outcome. Those with `ok` contributed.
     std::array<std::uint32_t, shift_outcome_count> shifts{};
-    std::uint32_t reused = 0;  ///< its base paths with light that were reused, once per sampling set
-    std::uint32_t skipped = 0; ///< its base paths with light that Russian roulette on reuse ended, likewise
+    std::uint32_t reused = 0;  ///< base paths of the pixel with light that were reused, once per sampling set
+    std::uint32_t skipped = 0; ///< those that Russian roulette on reuse ended
 
     std::uint32_t tried() const; ///< shifts to this pixel
     std::uint32_t arrived() const { return shifts[static_cast<std::size_t>(ShiftOutcome::ok)]; }
@@ -131,7 +131,7 @@ struct ReuseMaps {
     Image<float> reused() const; ///< base paths of other pixels that contributed, per pass, once per set
     /// Returns the fraction of shifts to each pixel with this outcome, in [0, 1]; 0 without shifts.
     Image<float> share(ShiftOutcome outcome) const;
-    Image<float> failed() const; ///< fraction of shifts that did not contribute, likewise
+    Image<float> failed() const; ///< fraction of shifts that did not contribute, in [0, 1]
     /// Returns the fraction of base paths with light that survive Russian roulette on reuse, in [0, 1]; 0 without
     /// such paths.
     Image<float> survival() const;

@@ -10,24 +10,24 @@ namespace tessera {
 
 namespace {
 
-/// Returns the sign of a pass in the half differences. Of the 2^k passes from pass 2^k on, the first half and the
-/// second half are one net each (Pass::random). The two halves are as independent as nets are, so their difference
-/// shows the noise of the mean. Halves that split a net overestimate that noise by half.
+/// Returns the sign s_k of a pass in METHODS (41). Of the 2^k passes from pass 2^k on, the first half and the
+/// second half are one net each (Pass::random). The difference of two nets shows the noise of the mean; halves
+/// that split a net would overestimate it.
 float sign_of(int pass) {
     const auto p = static_cast<unsigned>(pass);
     const bool is_second = p == 1 || (p & std::bit_floor(p) >> 1) != 0;
     return is_second ? -1.0f : 1.0f;
 }
 
-/// Replaces each entry of `into` by `joined` of it and of the other image's entry.
-template <class Entry, class Join>
-void join(Image<Entry>& into, const Image<Entry>& other, Join joined) {
-    std::transform(into.begin(), into.end(), other.begin(), into.begin(), joined);
+/// Replaces each entry of `into` by combine(entry, other's entry).
+template <class Entry, class Combine>
+void combine_entries(Image<Entry>& into, const Image<Entry>& other, Combine combine) {
+    std::transform(into.begin(), into.end(), other.begin(), into.begin(), combine);
 }
 
 template <class Entry>
 void add_entries(Image<Entry>& into, const Image<Entry>& other) {
-    join(into, other, [](Entry a, const Entry& b) {
+    combine_entries(into, other, [](Entry a, const Entry& b) {
         a += b;
         return a;
     });
@@ -100,7 +100,7 @@ void Film::add_parts(int x, int y, const PixelSample& sample) {
 void Film::remember_if_brightest(int x, int y, int pass, const PixelSample& sample) {
     Brightest found{sample.primal, x + 1 < width() ? sample.dx : Rgb(0), y + 1 < height() ? sample.dy : Rgb(0),
                     sample.albedo, sign_of(pass)};
-    for (int c = 0; c < 3; ++c) // primal times albedo is the radiance of a mean of paths, too
+    for (int c = 0; c < 3; ++c) // includes `beside`, so primal times albedo is the sample's radiance
         if (found.primal[c] > 0)
             found.albedo[c] += sample.beside[c] / found.primal[c];
     for (Rgb c : {found.primal, found.dx, found.dy})
@@ -156,8 +156,8 @@ void Film::add(const Film& other) {
     add_entries(reuse_, other.reuse_);
     balance_ += other.balance_;
     features_.take_more_of(other.features_);
-    join(lamp_edges_, other.lamp_edges_,
-         [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+    combine_entries(lamp_edges_, other.lamp_edges_,
+                    [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
     projections_ = other.projections_; // equal, unless this film has no pass yet
     luminance_ = other.luminance_;
 }

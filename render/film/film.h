@@ -16,21 +16,21 @@
 
 namespace tessera {
 
-/// Returns e = v / a of radiance v and albedo a, or 0 for a black radiance. A pixel that sees nothing has v = a =
-/// 0, so v = a e holds for any e.
+/// Returns e = v / a, METHODS (27), of radiance v and albedo a, or 0 for a black radiance. A pixel that sees
+/// nothing has v = a = 0, so v = a e holds for any e.
 inline Rgb coefficient(Rgb radiance, Rgb albedo) {
     return is_black(radiance) ? Rgb(0) : radiance / albedo;
 }
 
-/// What one pass measures at one pixel.
+/// One pixel's sample of one pass.
 struct PixelSample {
-    Rgb primal{0}; ///< radiance divided by `albedo`
-    Rgb dx{0};     ///< difference of the primals to the pixel on the right
-    Rgb dy{0};     ///< difference to the pixel below
-    Rgb very_direct{0};
-    Rgb albedo{1}; ///< positive, or black if the pixel sees nothing
+    Rgb primal{0};      ///< radiance divided by `albedo`
+    Rgb dx{0};          ///< difference of the primals to the pixel on the right
+    Rgb dy{0};          ///< difference to the pixel below
+    Rgb very_direct{0}; ///< directly visible emission
+    Rgb albedo{1};      ///< positive, or black if the pixel sees nothing
     ReuseCounts reuse{};
-    float luminance = -1; ///< PathReuse::arriving_luminance of its base path
+    float luminance = -1; ///< PathReuse::arriving_luminance() of its base path
 
     /// Basis components of primal, dx and dy (basis.h). The memory belongs to the caller. Empty without such a
     /// basis or without a neighbour.
@@ -40,7 +40,7 @@ struct PixelSample {
     /// which have different albedos.
     Rgb beside{0};
     int paths = 1;              ///< number of base paths in that mean
-    AlbedoSpread<Rgb> spread{}; ///< of albedo and radiance within that mean
+    AlbedoSpread<Rgb> spread{}; ///< of albedo and radiance within that mean; 0 for one path
 
     /// Sets albedo, spread and `beside` of a sample that is a mean and has its primal.
     void set_albedo(const AlbedoMoments<Rgb>& mean) {
@@ -50,7 +50,7 @@ struct PixelSample {
     }
 };
 
-/// What a film stores besides primal and directly visible emission.
+/// Optional contents of a film, besides primal and directly visible emission.
 struct FilmBuffers {
     bool gradients = false;
     bool albedo = false;     ///< moments of the albedos by which radiance was divided, and of radiance
@@ -67,7 +67,7 @@ struct FilmBuffers {
 class Film {
     struct Moments {
         glm::dvec3 sum{0};
-        double squares = 0; ///< of the lengths of colours
+        double squares = 0; ///< sum of squared lengths of colours
 
         void operator+=(Rgb value) {
             const glm::dvec3 v(value);
@@ -97,7 +97,7 @@ public:
     /// Adds one feature sample of a pixel in pass `pass`. Rejects and counts an invalid sample.
     void add_feature_sample(int x, int y, int pass, const FeatureSample& sample, Counters& counters);
 
-    /// Replaces the feature samples of the pixels of which `features` has more.
+    /// Replaces the feature samples of each pixel for which `features` has more.
     void take_features(const PixelFeatures& features) { features_.take_more_of(features); }
 
     /// Assigns the pass to one of the two halves. To be called after each pass.
@@ -110,8 +110,8 @@ public:
     /// more of a pixel keeps them. Path luminances are those of `other`.
     void add(const Film& other);
 
-    /// Returns s^l of a pixel, FilmBuffers::parts numbers (basis.h). set_projection() sets them before the pixel's
-    /// first sample; they never change.
+    /// Returns the projections s^l of a pixel, METHODS (30): FilmBuffers::parts numbers. set_projection() must set
+    /// them before the pixel's first sample.
     const float* projection(int x, int y) const { return projections_.row(y) + x * buffers_.parts; }
     void set_projection(int x, int y, const float* numbers) {
         std::copy_n(numbers, buffers_.parts, projections_.row(y) + x * buffers_.parts);
@@ -154,8 +154,8 @@ private:
         float size = 0; ///< largest |luminance| of primal, dx and dy
     };
 
-    // The half differences are sums over one half of the passes minus sums over the other half. They do not grow
-    // with the number of passes, so floats suffice.
+    // The half sums are the sums of s_k x_k in METHODS (41). Floats suffice: their rounding stays far below the
+    // noise that half differences measure.
 
     struct PixelSums {
         Moments primal;
@@ -174,14 +174,14 @@ private:
     };
     using AlbedoSums = AlbedoMoments<glm::dvec3>;
 
-    /// Turns sums into half differences. With n passes, signs s_k and S = sum of s_k, a half difference is the
-    /// mean of (s_k - S / n) x_k. These weights sum to zero for every n. Their squares sum to n - S^2 / n and are
-    /// scaled to n, the sum for the weights of the mean.
+    /// Computes half differences, METHODS (41), from sums. The weights s_k - S / n sum to 0 for every n. `scale`
+    /// makes their squares sum to n, as those of the mean do.
     struct HalfWeights {
         double balance = 0; ///< S / n
-        double scale = 1;   ///< corrects for halves of different lengths
+        double scale = 1;   ///< (1 - S^2 / n^2)^(-1/2)
         int passes = 0;
 
+        /// Returns a half difference.
         /// @param sum  of s_k x_k
         Rgb difference(Rgb sum, const Moments& moments) const {
             return Rgb((glm::dvec3(sum) - balance * moments.sum) * (scale / passes));
@@ -204,11 +204,11 @@ private:
 
     FilmBuffers buffers_;
     Image<PixelSums> pixels_;
-    Image<GradientSums> gradients_; ///< empty without gradients, as are the others without their buffers
+    Image<GradientSums> gradients_; ///< empty without gradients; so are those below without their buffers
     Image<AlbedoSums> albedos_;     ///< values are radiance
     Image<glm::dvec3> beside_;      ///< PixelSample::beside
-    Image<Part> parts_;             ///< components of a pixel side by side
-    Image<float> projections_;      ///< likewise
+    Image<Part> parts_;             ///< FilmBuffers::parts adjacent entries per pixel
+    Image<float> projections_;      ///< FilmBuffers::parts adjacent entries per pixel
     Image<ReuseCounts> reuse_;
     Image<float> luminance_;
     Image<std::uint8_t> lamp_edges_;

@@ -27,10 +27,10 @@ float variance_of(const Moments& m, double n) {
 
 } // namespace
 
-/// Measures how albedo, radiance and coefficient of pixel i vary from sample to sample. With S for sums of
-/// products of deviations from the means, the part of the coefficient that follows the albedo explains S_ea^2 /
-/// S_aa of S_ee. a v / a is v. For samples that are means, S_aa includes the variance within them, and S_ea does
-/// not, so the explained part is underestimated.
+/// Measures how albedo a, radiance v and coefficient e of pixel i vary from sample to sample. With S for sums of
+/// products of deviations from the means, the part of e that follows a explains S_ea^2 / S_aa of S_ee. The rest
+/// gives V_e' of METHODS (47). Since a e = v, S_ea follows from the mean of v. For samples that are means, S_aa
+/// includes the variance within them and S_ea does not, so the explained part is underestimated.
 void Film::measure_samples(std::size_t i, int passes, Demodulation& result) const {
     const double n = passes;
     AlbedoSums mean = albedos_.data()[i];
@@ -56,6 +56,7 @@ Demodulation Film::demodulation(int passes) const {
     const RgbImage black(width(), height());
     const Image<float> none(width(), height());
     Demodulation result{black, black, black, none, none, black, black, none};
+    // The variance of a mean of albedos over n points of a net falls about as n^-1.5.
     const double scale = scale_of_means(passes), samples = std::pow(passes, 1.5);
     for (std::size_t i = 0; i < albedos_.size(); ++i) {
         result.value.data()[i] = Rgb(albedos_.data()[i].value * scale);

@@ -55,7 +55,7 @@ double PixelFeatures::Points::relative_albedo_variance() const {
     return variance_of(albedo_squares, square, n) / std::max(square / std::max(n * n, 1.0), 1e-30);
 }
 
-double PixelFeatures::Points::guide_variance() const {
+double PixelFeatures::Points::feature_variance() const {
     return variance_of(static_cast<double>(feature_squares), static_cast<double>(square_of(features)), count);
 }
 
@@ -68,30 +68,28 @@ PixelFeatures::Points PixelFeatures::around(int x, int y) const {
 }
 
 void PixelFeatures::request_more(int passes) {
-    // The albedo's relative variance must be well below that of radiance, which is about 0.1 to 1 for one sample
-    // before denoising. On the texture of assets/stability, 0.002 has the same error, and 0.015 costs 20 % more time
-    // at equal error. The variance of features must be well below the filter's bandwidth
-    // (recon/picture/guide_kernel.cpp).
-    constexpr double enough_of_one = 0.004, enough_of_guides = 0.003;
+    // The albedo's relative variance must be well below that of radiance, which is 0.1 to 1 for one sample. The
+    // variance of features must be well below the squared widths of METHODS (43).
+    constexpr double albedo_limit = 0.004, feature_limit = 0.003;
     constexpr double most = 1 << 20;
-    const auto needed = [](double variance, double enough) { return std::pow(variance / enough, 2 / 3.0); };
+    const auto needed = [](double variance, double limit) { return std::pow(variance / limit, 2 / 3.0); };
     for (int y = 0; y < points_.height(); ++y)
         for (int x = 0; x < points_.width(); ++x) {
             const Points near = around(x, y);
             Points& here = points_(x, y);
-            double count = needed(near.guide_variance(), enough_of_guides);
+            double count = needed(near.feature_variance(), feature_limit);
             if (for_albedo_)
-                count = std::max(count, needed(near.relative_albedo_variance(), enough_of_one / passes));
+                count = std::max(count, needed(near.relative_albedo_variance(), albedo_limit / passes));
             here.wanted = static_cast<int>(std::clamp(count - here.count, 0.0, most));
         }
 }
 
 Image<std::uint8_t> PixelFeatures::mixed() const {
-    constexpr double noticeable = 0.2; // 0.05 to 0.6 have about the same error and cost
+    constexpr double noticeable = 0.2; // insensitive: 0.05 to 0.6 have about the same error and cost
     Image<std::uint8_t> result(points_.width(), points_.height());
     for (int y = 0; y < points_.height(); ++y)
         for (int x = 0; x < points_.width(); ++x)
-            result(x, y) = around(x, y).guide_variance() > noticeable;
+            result(x, y) = around(x, y).feature_variance() > noticeable;
     return result;
 }
 
@@ -114,7 +112,7 @@ float PixelFeatures::albedo_variance(std::size_t i) const {
 FeatureImages PixelFeatures::images() const {
     const int width = points_.width(), height = points_.height();
     FeatureImages result{RgbImage(width, height), RgbImage(width, height), Image<float>(width, height),
-                       Image<float>(width, height)};
+                         Image<float>(width, height)};
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const SurfaceFeatures& sum = points_.data()[i].features;
         const auto n = static_cast<float>(std::max(points_.data()[i].count, 1));

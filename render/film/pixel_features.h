@@ -29,27 +29,31 @@ public:
         return sizeof(Points) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     }
 
-    /// Returns the number of samples of a pixel, and the number of further ones that the pass at hand takes.
+    /// Returns the number of samples of a pixel.
     int count(int x, int y) const { return points_(x, y).count; }
+    /// Returns the number of further samples that the current pass takes.
     int wanted(int x, int y) const {
-        constexpr int most = 16; // per pass, so all pixels get some soon
+        constexpr int most = 16; // distributes the cost over passes; not tuned
         return std::min(points_(x, y).wanted, most);
     }
-    /// Adds a sample. Replaces an invalid one by black, so the next sample has another point, and returns false.
+    /// Adds a sample. Returns false if it is invalid; black then replaces it, so that the next sample has another
+    /// point.
     bool add(int x, int y, const FeatureSample& sample);
 
-    /// Finds, between passes, how many more samples each pixel needs for the means of so many passes.
+    /// Computes how many more samples each pixel needs for the means of so many passes. To be called between
+    /// passes.
     void request_more(int passes);
 
-    /// Returns 1 for pixels that see several surfaces, and 0 for others. It compares the features of 3 x 3 pixels.
+    /// Returns 1 for mixed pixels, whose features have a large variance over 3 x 3 pixels, and 0 for others.
     Image<std::uint8_t> mixed() const;
 
-    /// Replaces the samples of the pixels of which `other`, of another render of the same picture, has more. The
+    /// Replaces the samples of each pixel for which `other`, of another render of the same picture, has more. The
     /// points of both are the same.
     void take_more_of(const PixelFeatures& other);
 
-    /// Mean of the albedo of pixel i, and the variance of one sample, summed over the channels.
+    /// Returns the mean albedo of pixel i.
     Rgb albedo(std::size_t i) const;
+    /// Returns the variance of one albedo sample of pixel i, summed over the channels.
     float albedo_variance(std::size_t i) const;
     int count(std::size_t i) const { return points_.data()[i].count; }
 
@@ -61,19 +65,19 @@ public:
 private:
     struct Points {
         glm::dvec3 albedo{0};
-        double albedo_squares = 0; ///< of the lengths of colours
+        double albedo_squares = 0; ///< sum of squared lengths of colours
         SurfaceFeatures features{};
-        float feature_squares = 0; ///< of the lengths of features
+        float feature_squares = 0; ///< sum of squared lengths of features, without nearness
         int count = 0;
         int wanted = 4; ///< further samples
 
         void operator+=(const FeatureSample& sample);
         void operator+=(const Points& other);
         double relative_albedo_variance() const;
-        double guide_variance() const;
+        double feature_variance() const;
     };
 
-    /// Returns the sums of 3 x 3 pixels: a few samples of one pixel can be equal by chance.
+    /// Returns the sums over 3 x 3 pixels, because the few samples of one pixel can be equal by chance.
     Points around(int x, int y) const;
 
     Image<Points> points_;

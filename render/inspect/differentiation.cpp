@@ -16,7 +16,7 @@ namespace tessera {
 
 namespace {
 
-/// A triangle that is hit, by its sides in the world.
+/// Two sides of a hit triangle, in world space.
 class TrianglePlane {
 public:
     TrianglePlane(const ShapeRecord& shape, const Hit& hit) {
@@ -29,15 +29,15 @@ public:
         }
     }
 
-    /// What a vector in the plane changes the barycentric coordinates by.
-    glm::vec2 barycentric(glm::vec3 by) const { return coordinates_along(by, a_, b_); }
+    /// Returns the change of barycentric coordinates along a vector in the plane.
+    glm::vec2 barycentric(glm::vec3 along) const { return coordinates_along(along, a_, b_); }
     float shortest_side() const { return std::min(glm::length(a_), glm::length(b_ - a_)); }
 
 private:
     glm::vec3 a_, b_;
 };
 
-/// Whether normals of shading differ over the triangle that is hit.
+/// Returns whether shading normals vary over the hit triangle.
 bool is_curved(const ShapeRecord& shape, const Hit& hit) {
     if (!shape.normals)
         return false;
@@ -45,8 +45,7 @@ bool is_curved(const ShapeRecord& shape, const Hit& hit) {
     return shape.normals[t.x] != shape.normals[t.y] || shape.normals[t.x] != shape.normals[t.z];
 }
 
-/// The vectors by which the frame of shading turns (their length is the angle, radians) where a hit moves by unit
-/// directions in its plane.
+/// Rotation of the shading frame when a hit moves in its plane.
 class FrameTurns {
 public:
     FrameTurns(const ShapeRecord& shape, const Hit& hit, const Frame& frame) : plane_(shape, hit), frame_(frame) {
@@ -58,19 +57,20 @@ public:
         if (hit.placement)
             for (glm::vec3* n : {&by_barycentric_[0], &by_barycentric_[1], &sum})
                 *n = hit.placement->of_normals * *n;
-        // As the frame has it: a two-sided material turns it over.
+        // The frame's normal may be flipped, by a two-sided material.
         const float length = glm::length(sum), scale = std::copysign(1 / length, glm::dot(sum, frame.normal));
         for (glm::vec3& n : by_barycentric_)
             n = scale * n - glm::dot(scale * n, frame.normal) * frame.normal;
     }
 
+    /// Returns the rotation vector per unit of distance along a direction; its length is an angle in radians.
     glm::vec3 along(glm::vec3 direction) const {
         const glm::vec2 by = plane_.barycentric(direction);
         const glm::vec3 change = by.x * by_barycentric_[0] + by.y * by_barycentric_[1];
         const float size = glm::length(change);
         if (!(size > 0))
             return glm::vec3(0);
-        // How the tangent lies is the frame's own matter.
+        // Differences of Frame include the turn of its tangent around the normal.
         const float step = 1e-3f / size;
         const Frame more(glm::normalize(frame_.normal + step * change)),
             less(glm::normalize(frame_.normal - step * change));
@@ -96,13 +96,13 @@ bool is_constant(const std::optional<Texture>& texture) {
     return !texture || texture->is_constant();
 }
 
-/// Whether textures tell how a material scatters, and not only how much: what they change of a reflectance neither
-/// turns directions nor is counted. What has many textures is not looked into.
+/// Returns whether textures change the directions of a scatter, and not only its reflectance. Returns true for
+/// materials with many textures without looking at them.
 bool scatters_by_texture(const ShapeRecord& shape) {
     if (!shape.uvs && !shape.attributed)
         return false;
     if (shape.has_frame_along_u && shape.normals)
-        return true; // and how the frame lies is a matter of the texture's u
+        return true; // the frame follows the texture's u
     if (shape.material->relief)
         return true;
     const auto& kind = shape.material->kind;
@@ -117,20 +117,20 @@ bool scatters_by_texture(const ShapeRecord& shape) {
     return !std::holds_alternative<PlasticMaterial>(kind);
 }
 
-/// The sampling routine of a scatter, with what goes into it moved by little.
+/// Differentiates the sampling routine of a scatter by finite differences.
 class MovedScatter {
 public:
     MovedScatter(const Scene& scene, const Ray& ray, const Hit& hit, const Vertex& x, const Scattering& s,
-                 bool looks_up)
+                 bool has_textures)
         : scene_(scene), ray_(ray), hit_(hit), x_(x), s_(s),
           base_{x.to_world(s.to_next), std::log(luminance(s.f_cos))},
-          // Sharp lobes change within less.
+          // Narrow lobes need smaller steps.
           angle_(2e-3f * (s.is_delta ? 1 : std::clamp(10 * x.bsdf.roughness(), 0.1f, 1.0f))) {
-        if (looks_up)
-            looked_up_ = x;
+        if (has_textures)
+            moved_vertex_ = x;
     }
 
-    /// By the two numbers.
+    /// Returns the derivative by the scatter's random numbers along an axis.
     Turn by_number(glm::vec2 axis) const {
         constexpr float step = 2e-3f;
         const glm::vec2 more = glm::min(s_.u + step * axis, 0x1.fffffep-1f),
@@ -138,11 +138,11 @@ public:
         return differ(scattered(x_, x_.to_previous, more), glm::dot(more - s_.u, axis),
                       scattered(x_, x_.to_previous, less), glm::dot(s_.u - less, axis));
     }
-    /// By a direction across the one that meets the vertex, a radian.
+    /// Returns the derivative by the incident direction, per radian toward a perpendicular direction.
     Turn by_direction(glm::vec3 across) const {
         return differ(seen_from(angle_ * across), angle_, seen_from(-angle_ * across), angle_);
     }
-    /// By a unit direction in the plane, with all that is looked up there.
+    /// Returns the derivative by the position along a unit vector in the plane, including texture lookups.
     Turn by_position(glm::vec3 along) {
         const float step = std::min(angle_ * hit_.distance, 0.2f * TrianglePlane(shape(), hit_).shortest_side());
         return differ(moved(step * along), step, moved(-step * along), step);
@@ -158,19 +158,19 @@ private:
         return Turn{x.to_world(s->to_next), std::log(luminance(s->f_cos))};
     }
 
-    std::optional<Turn> seen_from(glm::vec3 turn) const {
+    std::optional<Turn> seen_from(glm::vec3 turn) const { // incident direction plus `turn`
         return scattered(x_, x_.to_local(-glm::normalize(ray_.direction + turn)), s_.u);
     }
 
     std::optional<Turn> moved(glm::vec3 by) {
         Hit hit = hit_;
         hit.barycentric += TrianglePlane(shape(), hit_).barycentric(by);
-        make_vertex(scene_, hit, {ray_.origin + by, ray_.direction}, looked_up_);
-        looked_up_.guide = x_.guide;
-        return scattered(looked_up_, looked_up_.to_previous, s_.u);
+        make_vertex(scene_, hit, {ray_.origin + by, ray_.direction}, moved_vertex_);
+        moved_vertex_.guide = x_.guide;
+        return scattered(moved_vertex_, moved_vertex_.to_previous, s_.u);
     }
 
-    /// From both sides, or the one where nothing else is chosen.
+    /// Returns the central difference, or a one-sided one if the other side chooses another scatter.
     Turn differ(const std::optional<Turn>& more, float step_up, const std::optional<Turn>& less,
                 float step_down) const {
         const Turn &high = more ? *more : base_, &low = less ? *less : base_;
@@ -186,13 +186,14 @@ private:
     const Vertex& x_;
     const Scattering& s_;
     Turn base_;
-    float angle_; ///< by how much directions are turned, radians
-    Vertex looked_up_;
+    float angle_; ///< step of directions, radians
+    Vertex moved_vertex_;
 };
 
-/// How sample_cosine_hemisphere() turns with both numbers, at what it made of them; local.
+/// Returns the derivatives of sample_cosine_hemisphere() by both numbers, in the local frame.
+/// @param to_next  its result for u
 std::array<Turn, 2> turns_of_cosine(glm::vec2 u, glm::vec3 to_next) {
-    // The disk by rings [Shirley and Chiu 1997]: its radius is one coordinate, and the angle the quotient of both.
+    // Concentric map [Shirley and Chiu 1997]: the radius is one coordinate, and the angle is the quotient of both.
     const float x = 2 * u.x - 1, y = 2 * u.y - 1;
     const bool wide = std::abs(x) > std::abs(y);
     const float radius = wide ? x : y;
@@ -203,7 +204,7 @@ std::array<Turn, 2> turns_of_cosine(glm::vec2 u, glm::vec3 to_next) {
     const glm::vec2 outward(c + angle * s, s - angle * c), around(pi / 4 * glm::vec2(-s, c));
     const auto turn = [&](glm::vec2 d) {
         const float down = -2 * (to_next.x * d.x + to_next.y * d.y) / to_next.z;
-        return Turn{{2 * d.x, 2 * d.y, down}, down / to_next.z}; // what it does to light is its cosine
+        return Turn{{2 * d.x, 2 * d.y, down}, down / to_next.z}; // f cos follows the cosine, to_next.z
     };
     const auto swapped = [](glm::vec2 d) { return glm::vec2(d.y, d.x); };
     return wide ? std::array{turn(outward), turn(around)}
@@ -234,7 +235,7 @@ Differentiation& Differentiation::operator=(const Differentiation& other) {
 
 void Differentiation::add_numbers(float choice, const std::array<Turn, 2>& turns) {
     for (const Turn& t : turns) {
-        if (here_.count % NumberVectors::lanes == 0) // a vector more, of which the rest is 0
+        if (here_.count % NumberVectors::lanes == 0) // begins another SIMD vector: all its lanes must be 0
             for (auto* part : {&here_.position.x, &here_.position.y, &here_.position.z, &direction_.x,
                                &direction_.y, &direction_.z, &here_.gradient, &here_.choice})
                 std::fill_n(part->begin() + here_.count, NumberVectors::lanes, 0.0f);
@@ -263,7 +264,7 @@ void Differentiation::arrive(const Ray& ray, float distance, glm::vec3 normal) {
     for (std::size_t j = 0; j < count; ++j) {
         const float x = p.x[j] + distance * direction_.x[j], y = p.y[j] + distance * direction_.y[j],
                     z = p.z[j] + distance * direction_.z[j];
-        const float later = x * slope.x + y * slope.y + z * slope.z; // the plane is met earlier or later
+        const float later = x * slope.x + y * slope.y + z * slope.z; // -dt
         p.x[j] = x - later * d.x;
         p.y[j] = y - later * d.y;
         p.z[j] = z - later * d.z;
@@ -288,8 +289,8 @@ void Differentiation::turn(const Turns& position, const Turns& direction) {
     }
 }
 
-/// Where the surface scatters alike everywhere, it is all turned with the frame: the next direction turns with it,
-/// and against the direction in which it is seen, which is as if that had turned back.
+/// Derivatives of a surface that scatters equally everywhere. Motion of the vertex rotates the frame. The next
+/// direction rotates with it, and the incident direction rotates backwards relative to it.
 void Differentiation::turn_with_frame(const ShapeRecord& shape, const Ray& ray, const Hit& hit, const Vertex& x,
                                       glm::vec3 next, const Turns& seen) {
     if (!is_curved(shape, hit))
@@ -312,20 +313,20 @@ void Differentiation::turn_with_frame(const ShapeRecord& shape, const Ray& ray, 
 void Differentiation::scatter(const Scene& scene, const Ray& ray, const Hit& hit, const Vertex& x,
                               const Scattering& s) {
     const ShapeRecord& shape = scene.record(hit.shape);
-    const bool is_diffuse = is_plain_diffuse(x), looks_up = scatters_by_texture(shape);
+    const bool is_diffuse = is_plain_diffuse(x), has_textures = scatters_by_texture(shape);
     std::array<Turn, 2> own;
     float choice = 1;
-    if (is_diffuse && !looks_up) {
+    if (is_diffuse && !has_textures) {
         own = turns_of_cosine(s.u, s.to_next);
         for (Turn& t : own)
             t.direction = x.to_world(t.direction);
         turn_with_frame(shape, ray, hit, x, x.to_world(s.to_next), {});
     } else {
-        MovedScatter moved(scene, ray, hit, x, s, looks_up);
+        MovedScatter moved(scene, ray, hit, x, s, has_textures);
         const Frame across(ray.direction);
         const Turns seen{{across.tangent, across.bitangent},
                          {moved.by_direction(across.tangent), moved.by_direction(across.bitangent)}};
-        if (looks_up) {
+        if (has_textures) {
             const Frame plane(x.geometric_normal);
             turn({{plane.tangent, plane.bitangent},
                   {moved.by_position(plane.tangent), moved.by_position(plane.bitangent)}},
@@ -335,10 +336,10 @@ void Differentiation::scatter(const Scene& scene, const Ray& ray, const Hit& hit
         }
         if (!s.is_delta) {
             own = {moved.by_number({1, 0}), moved.by_number({0, 1})};
-            if (sample_cosine_hemisphere(s.u) == s.to_next) // the diffuse part of some other kind
+            if (sample_cosine_hemisphere(s.u) == s.to_next) // a diffuse lobe of another BSDF
                 for (const std::size_t k : {0, 1})
                     own[k].direction = x.to_world(turns_of_cosine(s.u, s.to_next)[k].direction);
-            // The lobe alone has 1 / pdf for an area; with its chance, and other lobes that overlap, pdf_w.
+            // `area` is 1 / pdf of the lobe alone, and pdf_w that of all lobes: P = pdf_w |dD/dx x dD/dy|.
             const float area = glm::length(glm::cross(own[0].direction, own[1].direction));
             choice = area > 0 ? std::min(area * s.pdf_w, 1.0f) : 1;
         }

@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-/// A vector for each random number of a path, side by side, for loops that the compiler turns into vector code.
-/// What lies beyond, to a whole vector, is read, too, and 0.
+/// One vector for each random number of a path, as arrays for loops that the compiler vectorises. Loops run to
+/// padded(count); the entries from `count` on must be 0.
 struct NumberVectors {
     static constexpr int lanes = 8;
     static constexpr int most = (2 * (most_edges + 2) + lanes - 1) / lanes * lanes;
@@ -31,68 +31,69 @@ struct NumberVectors {
     static int padded(int count) { return (count + lanes - 1) / lanes * lanes; }
 };
 
-/// How a point of a path moves with the random numbers, each uniform in [0, 1], that it was made of.
+/// Derivatives of a point of a path by the random numbers, uniform in [0, 1], that determine it.
 struct PathDerivatives {
-    int count = 0;                                   ///< of those that move it: numbers drawn later do not
-    NumberVectors position;                          ///< units of the scene, in the plane across the normal
-    std::array<float, NumberVectors::most> gradient; ///< relative, of f cos along the path so far, by luminance
-    std::array<float, NumberVectors::most> choice;   ///< chance of the choice that each number was drawn after
-    glm::vec3 normal{0};                             ///< geometric, unit
-    float chance = 1; ///< of all choices that let the path come here, roulette among them
-    int numbers = 0;  ///< of the path; more than `count`, if the others do not move the point
+    int count = 0;          ///< of the numbers that move the point
+    NumberVectors position; ///< derivatives of the position, perpendicular to the normal, scene units
+    std::array<float, NumberVectors::most> gradient; ///< relative derivatives of the path's f cos, by luminance
+    std::array<float, NumberVectors::most> choice;   ///< P of the choice before each number was drawn
+    glm::vec3 normal{0};                             ///< geometric normal, unit
+    float chance = 1; ///< product of the probabilities of all choices so far, including roulette
+    int numbers = 0;  ///< of the path, at least `count`: some do not move a light sample
 };
 
-/// A scatter as a path has it: into what direction, and by which numbers.
+/// A scatter of a path with its random numbers.
 struct Scattering {
     float lobe;        ///< Draw::lobe
-    glm::vec2 u;       ///< Draw::direction; a delta scatter draws none
+    glm::vec2 u;       ///< Draw::direction; unused by a delta scatter
     glm::vec3 to_next; ///< unit, in the vertex's frame
     Rgb f_cos;
-    float pdf_w; ///< of all lobes together; of a delta scatter its probability
+    float pdf_w; ///< per solid angle, of all lobes together; probability of a delta scatter
     bool is_delta;
     Scatter scatter;
-    float survival; ///< probability of the roulette on path length that the path goes on
+    float survival; ///< survival probability of the roulette on path length
 };
 
-/// A direction, unit and of the world, with what it does to light; or how both change.
+/// A unit direction in world space with the logarithm of f cos toward it; or derivatives of both.
 struct Turn {
     glm::vec3 direction{0};
     float log_value = 0;
 };
 
-/// Carries derivatives along a path as it is traced [Suykens 2001, 3 and 4.2]: by two numbers that say where in
-/// its pixel it begins, and two more for each scatter by a lobe. The numbers that choose among lobes make steps
-/// only: they move nothing, but what is drawn after a choice of little chance stands for more.
+/// Propagates derivatives along a path [Suykens 2001, 3 and 4.2; METHODS, Path differentials]. The path has two
+/// random numbers for its position in the pixel, and two for each scatter by a lobe. Numbers that choose among
+/// lobes have a derivative of 0, but their probabilities enlarge the footprint.
 ///
-/// What a scatter does is linear: it turns how the vertex moves over its plane, how the direction turns in which
-/// it is met, and its own two numbers, into how the next direction turns. Those six columns are found once a
-/// scatter, in closed form where a surface is diffuse, and else as differences of the sampling routine; by the
-/// position of the vertex only where textures make it matter, as a curved surface just turns with its frame. So
-/// all BSDFs have them, and a long path costs little more a vertex than a short one. What a texture changes of a
-/// diffuse reflectance is not part of the gradient: that is what footprints average over.
+/// The derivative of a scatter is a linear map to changes of the next direction, with six columns: two each for
+/// the vertex's position, the incident direction, and the scatter's own numbers. The columns are computed once per
+/// scatter: in closed form for diffuse surfaces, otherwise as differences of the sampling routine, which every
+/// BSDF has. Differences by position are taken only where textures change the scatter; otherwise the frame's turn
+/// suffices. The gradient excludes changes of diffuse reflectance by textures, because footprints average over
+/// these.
 class Differentiation {
 public:
     Differentiation() = default;
-    /// Copies no more than the numbers that there are.
+    /// Copies the used entries only.
     Differentiation(const Differentiation& other);
     Differentiation& operator=(const Differentiation& other);
 
-    /// At a point of the picture, in pixels, and one of the lens.
+    /// Starts a path at a point of the picture, in pixels, and of the lens (CameraSample::lens).
     void start(const Projection& projection, glm::vec2 pixel, glm::vec2 lens);
 
-    /// Transfer to a surface [A.2; with the sign that it lacks there].
-    /// @param normal  of the triangle that the ray meets after `distance`
+    /// Transfers the derivatives along a ray to a surface, METHODS (24).
+    /// @param normal  of the triangle that the ray hits after `distance`
     void arrive(const Ray& ray, float distance, glm::vec3 normal);
 
-    /// The scatter at that surface.
-    /// @param ray, hit  how it was met; x: what is there
+    /// Scatters at that surface.
+    /// @param ray, hit  ray to the surface and its hit
+    /// @param x         the vertex there
     void scatter(const Scene& scene, const Ray& ray, const Hit& hit, const Vertex& x, const Scattering& s);
 
-    /// Where the path has arrived; until the next call.
+    /// Returns the derivatives at the current vertex; valid until the next call.
     const PathDerivatives& derivatives() const { return here_; }
 
 private:
-    /// What vectors along unit directions bring, by their length.
+    /// Derivatives `by` for motion along two directions.
     struct Turns {
         std::array<glm::vec3, 2> along{glm::vec3(0), glm::vec3(0)};
         std::array<Turn, 2> by{};

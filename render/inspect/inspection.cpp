@@ -26,7 +26,7 @@ PixelRect bounds(const std::vector<glm::ivec2>& pixels) {
     return around;
 }
 
-/// Shares the light of worker.set, and looks on; closely at what `pixel` gets.
+/// Reuses the base paths of worker.set, and records it; step by step for the shifts of `pixel`.
 InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::ivec2> pixel, Worker& worker) {
     InspectedSet result{worker.set.pixels, {}, {}, {}, {}};
     for (glm::ivec2 p : result.pixels)
@@ -47,7 +47,8 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     return result;
 }
 
-/// Whether the film refuses what the pixel got: its light over the albedo, or a difference to that of a neighbour.
+/// Returns whether the film rejects a pixel's sample: its coefficient, or that of a neighbour in a gradient, is
+/// not finite.
 bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
     const auto is_bad = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
@@ -57,7 +58,7 @@ bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings&
                              (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
 }
 
-/// The same of a pixel that shares nothing: the means of its paths and of its neighbours'.
+/// Returns the same for a pixel without reuse, METHODS (21): checks all its paths and those of its neighbours.
 bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
     for (const glm::ivec2 p : {pixel, pixel + glm::ivec2(1, 0), pixel + glm::ivec2(0, 1)}) {
         if (p.x >= pass.size.x || p.y >= pass.size.y)
@@ -73,7 +74,7 @@ bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
     return false;
 }
 
-/// What the sample of worker.path, a pixel's base path, has of very direct light.
+/// Returns the directly visible emission of a sample whose base path is worker.path.
 Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number, Worker& worker) {
     if (is_alone || !pass.is_mixed(pixel))
         return worker.path.very_direct;
@@ -89,14 +90,14 @@ Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number
     return sum / static_cast<float>(camera_positions(pass.settings));
 }
 
-/// @param d  of vertex i of the path
+/// @param d  derivatives of vertex i of the path
 void add_light_footprint(const Worker& worker, int i, const PathDerivatives& d, const DeltaRule& rule,
                          InspectedVertex& x) {
     if (x.light && worker.path.light(i).light.kind == LightPoint::Kind::surface)
         x.light->footprint = footprint(differentiate_light(worker.tracer, worker.path, i, d), rule);
 }
 
-/// Finds what the vertices of the path stand for, and its light samples.
+/// Adds the footprints of the path's vertices and light samples.
 void add_footprints(const Pass& pass, glm::ivec2 pixel, const CameraSample& from, const Worker& worker,
                     std::span<const Hit> hits, std::vector<InspectedVertex>& path) {
     const glm::vec2 at = glm::vec2(pixel) + from.subpixel;
@@ -175,7 +176,7 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     const int paths = std::max(paths_alone, 1);
     std::vector<Hit> hits;
     for (int number = 0; number < paths; ++number) {
-        // Not by trace_pixel(), which empties a path that is to be refused.
+        // trace_pixel() would empty an invalid path.
         const Ray ray = pass.camera_ray(pixel.x, pixel.y, pass.base_sample(pixel, number));
         worker.tracer.hits = number == 0 ? &hits : nullptr;
         trace_base_path(worker.tracer, ray, pass.pixel_width(), pass.random(pixel.x, pixel.y, number),
@@ -214,16 +215,16 @@ TileInspection inspect_tile(const Scene& scene, const Camera& camera, glm::ivec2
 
 namespace {
 
-/// What the base paths of a pass tell LearnedReuse of the pixels that are seen.
-void learn_luminance(const Pass& pass, PixelRect seen, Worker& worker, LearnedReuse& learned) {
-    for (int y = seen.y0; y < seen.y1; ++y)
-        for (int x = seen.x0; x < seen.x1; ++x) {
+/// Learns from the base paths of a pass in a rectangle.
+void learn_luminance(const Pass& pass, PixelRect rect, Worker& worker, LearnedReuse& learned) {
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, pass.base_sample({x, y}), worker.path);
             learned.learn(x, y, worker.reuse.arriving_luminance(worker.path));
         }
 }
 
-/// What the first base paths of a pass tell guides, by blocks.
+/// Returns the light that the guiding paths of a pass find, by blocks.
 std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& worker,
                                                     const std::stop_token& stop) {
     std::vector<std::vector<FoundLight>> found;
@@ -241,15 +242,15 @@ std::vector<std::vector<FoundLight>> light_found_in(const Pass& pass, Worker& wo
     return found;
 }
 
-/// Which pixels of these places see several things, as a render finds it before its first pass.
-std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const Pass& pass, std::span<const PixelRect> places,
+/// Finds the mixed pixels of some rectangles, as a render does before its first pass.
+std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const Pass& pass, std::span<const PixelRect> rects,
                                                         Worker& worker, const std::stop_token& stop) {
     PixelFeatures features(pass.size.x, pass.size.y, is_demodulated(pass.settings));
-    for (const PixelRect& place : places) // with the pixels around, which tell, too
+    for (const PixelRect& rect : rects) // with the pixels around, which PixelFeatures::mixed() compares
         if (!stop.stop_requested())
-            take_feature_samples(
-                pass, {std::max(place.x0 - 1, 0), std::max(place.y0 - 1, 0), place.x1 + 1, place.y1 + 1}, worker,
-                features);
+            take_feature_samples(pass,
+                                 {std::max(rect.x0 - 1, 0), std::max(rect.y0 - 1, 0), rect.x1 + 1, rect.y1 + 1},
+                                 worker, features);
     return std::make_shared<const Image<std::uint8_t>>(features.mixed());
 }
 
@@ -258,7 +259,7 @@ std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const Pass& pass, std::s
 LearnedReuse replay_learning(const Scene& scene, const Camera& camera, glm::ivec2 size,
                              const RenderSettings& settings, int pass, glm::ivec2 pixel, std::stop_token stop) {
     LearnedReuse learned(size, settings);
-    const bool cuts = settings.adapt_tile && has_tiles_to_cut(settings) && settings.tile > 1;
+    const bool splits = settings.adapt_tile && has_tiles_to_cut(settings) && settings.tile > 1;
     if (learned.wants_pilot()) {
         Worker worker(scene, camera, size, settings, nullptr);
         const Pilot pilot(scene, camera, size, settings, learned);
@@ -268,29 +269,29 @@ LearnedReuse replay_learning(const Scene& scene, const Camera& camera, glm::ivec
         learned.learn(found);
     }
     const TileGrid grid(size, settings, learned, pass);
-    std::set<int> cells; // that the tiles reach into whose pixels share with this one
+    std::set<int> cells; // of all tiles whose sampling sets can contain the pixel
     for (const glm::ivec2 beside : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
         const PixelRect tile = grid.tile_at(pixel - beside);
         for (const int x : {tile.x0, tile.x1 - 1})
             for (const int y : {tile.y0, tile.y1 - 1})
-                if (cuts)
+                if (splits)
                     cells.insert(learned.cell_of({x, y, x + 1, y + 1}));
     }
     const bool guides = settings.path_guiding != Guiding::off;
     if (has_positions(settings)) {
-        std::vector<PixelRect> places{grid.block_at(pixel).with_halo(size)};
+        std::vector<PixelRect> rects{grid.block_at(pixel).with_halo(size)};
         for (const int cell : cells)
-            places.push_back(learned.cell(cell));
-        if (guides) // all of whose base paths are traced again
-            places = {{0, 0, size.x, size.y}};
+            rects.push_back(learned.cell(cell));
+        if (guides) // guiding paths lie in the whole picture
+            rects = {{0, 0, size.x, size.y}};
         Worker worker(scene, camera, size, settings, nullptr);
-        learned.set_mixed(mixed_pixels({scene, camera, size, settings, learned, 0}, places, worker, stop));
+        learned.set_mixed(mixed_pixels({scene, camera, size, settings, learned, 0}, rects, worker, stop));
     }
-    // Passes go by what all had told when there were last twice as many as the time before (Render).
+    // A pass uses the state that the render had after the last power of two of passes (Render::learn_from_pass).
     LearnedReuse next = learned;
     GuidingLearner guiding;
-    const int told = static_cast<int>(std::bit_floor(static_cast<unsigned>(pass)));
-    for (int i = cuts || guides ? 0 : told; i < told && !stop.stop_requested(); ++i) {
+    const int learned_passes = static_cast<int>(std::bit_floor(static_cast<unsigned>(pass)));
+    for (int i = splits || guides ? 0 : learned_passes; i < learned_passes && !stop.stop_requested(); ++i) {
         Worker worker(scene, camera, size, settings, learned.guiding());
         const Pass replayed(scene, camera, size, settings, learned, i);
         if (guides)
@@ -302,7 +303,7 @@ LearnedReuse replay_learning(const Scene& scene, const Camera& camera, glm::ivec
             learned.take(next, i + 1);
         }
     }
-    learned.take(next, told); // where there was nothing to replay
+    learned.take(next, learned_passes); // sets first_pass() even if nothing was replayed
     return learned;
 }
 

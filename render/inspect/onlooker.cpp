@@ -39,7 +39,7 @@ InspectedVertex inspect_vertex(const BasePath& path, int i, Rgb throughput) {
     return v;
 }
 
-/// The base path's own way along one of its light paths.
+/// Returns the base path's own steps along one of its light paths.
 std::vector<InspectedStep> steps_of(const BasePath& path, int last, const Rgb& carried) {
     std::vector<InspectedStep> steps;
     Rgb throughput(1);
@@ -117,11 +117,11 @@ InspectedShift Onlooker::shift(int base, int m, float scale) const {
     return s;
 }
 
-/// The slot of the light path that brings most; -1: none brings anything.
+/// Adds the contributions of all light paths. Returns the slot with the largest one; -1: all are black.
 int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) const {
     const LightPaths& light = worker_.reuse.light_paths();
     const OffsetPaths& offsets = worker_.reuse.offset_paths();
-    float most = 0;
+    float largest = 0;
     int best = -1;
     for (int slot = light.first_shared(); slot <= light.last_alive(); ++slot) {
         if (!light.is_alive(slot))
@@ -129,9 +129,9 @@ int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) c
         const float weight = worker_.reuse.weight(slot, scale);
         const Rgb value = weight * (base == m ? light.carried(slot) : offsets.value(slot, m));
         s.value += value;
-        if (luminance(value) <= most)
+        if (luminance(value) <= largest)
             continue;
-        most = luminance(value);
+        largest = luminance(value);
         best = slot;
         s.weight = weight;
         s.ratio = base == m ? 1 : offsets.ratio(slot, m);
@@ -139,7 +139,7 @@ int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) c
     return best;
 }
 
-/// A light path that came to its end, but was blocked.
+/// Returns the first slot whose shift reached its light, but was occluded; -1: none.
 int Onlooker::first_attempt(int m) const {
     const std::vector<OffsetTrace::End>& ends = trace_[m].ends;
     for (std::size_t slot = 0; slot < ends.size(); ++slot)
@@ -160,7 +160,7 @@ void Onlooker::add_places(int base, int m, InspectedShift& s) const {
         s.beyond.push_back(path(base)[i].vertex.position);
 }
 
-/// The Jacobian, and vertex by vertex what the shift noted.
+/// Stores |J|, the way in which the light path ends, and, at the inspected pixel, the steps of the shift.
 void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
     const LightPaths& light = worker_.reuse.light_paths();
     std::vector<InspectedStep> steps;
@@ -188,15 +188,16 @@ void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
     }
 }
 
-/// Of the offset path as if its own pixel had drawn it. What the base path drew in the end is its own.
+/// Adds scalar footprints, METHODS (25) and (26), as if the offset path had been sampled from its own pixel.
+/// Survival probabilities are those of the base path.
 void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps) const {
-    const BasePath& seen_first = path(m);
-    if (seen_first.empty())
+    const BasePath& own = path(m);
+    if (own.empty())
         return;
-    const Vertex& first = seen_first[0].vertex;
-    ScalarFootprint along({seen_first.pixel_angle, seen_first.pixel_width});
+    const Vertex& first = own[0].vertex;
+    ScalarFootprint along({own.pixel_angle, own.pixel_width});
     glm::vec3 to_before = first.to_world(first.to_previous);
-    float distance = 0; // the width is that of the pixel there
+    float distance = 0; // the width begins as that of the pixel at y_1
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const SeenVertex& y = steps[i].vertex;
         along.arrive(distance, std::abs(glm::dot(to_before, y.normal)));
@@ -218,8 +219,8 @@ void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps
 std::string_view Onlooker::ending_of(int slot) const {
     const LightPaths& light = worker_.reuse.light_paths();
     if (light.has_join() && slot == light.tail_slot())
-        return "all lamps further on";
-    return slot == light.hit_slot(light.vertex_of(slot)) ? "meets a lamp" : "lamp sampled";
+        return "all longer light paths";
+    return slot == light.hit_slot(light.vertex_of(slot)) ? "emitter hit" : "emitter sampled";
 }
 
 } // namespace tessera

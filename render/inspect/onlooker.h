@@ -5,21 +5,21 @@
 
 namespace tessera {
 
-/// What shifts did to all offset paths, one a pixel of the sampling set.
+/// Records the shifts of one base path to all pixels of a sampling set.
 class OffsetTrace final : public ShiftOnlooker {
 public:
-    /// How a light path, a slot of LightPaths, ended in the offset, whatever visibility made of it then.
+    /// End of a shifted light path (a slot of LightPaths), regardless of its visibility.
     struct End {
-        bool is_there = false;
-        bool joins = false; ///< it goes through `join` to the base's own vertex, where `last` is
+        bool is_there = false; ///< the shift reached the light
+        bool joins = false;    ///< it reached it through `join`; `last` is then at a vertex of the base path
         OffsetStep join;
         OffsetStep last;
     };
     struct Path {
         std::vector<SeenVertex> vertices; ///< y_1, y_2, ...
-        std::vector<OffsetStep> bounces;  ///< at y_1, y_2, ..., those that led to another vertex
-        OffsetStep join;                  ///< the newest to a vertex of the base path
-        std::vector<End> ends;            ///< one a slot
+        std::vector<OffsetStep> bounces;  ///< at y_1, y_2, ..., to the next vertex of the offset path
+        OffsetStep join;                  ///< the last reconnection to a vertex of the base path
+        std::vector<End> ends;            ///< by slot
     };
 
     const Path& operator[](int m) const { return paths_[m]; }
@@ -40,14 +40,14 @@ private:
     std::vector<Path> paths_;
 };
 
-/// A base path's vertices as one looks at them.
+/// Returns the vertices of a base path.
 std::vector<InspectedVertex> inspect_path(const BasePath& path);
 
-/// Looks on while the light of a worker's set is shared out (reuse_paths).
+/// Observes reuse_paths() on a worker's set, and records base paths and shifts.
 class Onlooker {
 public:
-    /// @param samples  a pixel so far, of which footprints are
-    /// @param pixel    the shifts to and from this entry of the set are told step by step; -1: none is
+    /// @param samples  samples per pixel so far, for footprints
+    /// @param pixel    entry of the set whose shifts get InspectedShift::steps; -1: none
     Onlooker(Worker& worker, float samples, int pixel, InspectedSet& result);
     ~Onlooker();
     Onlooker(const Onlooker&) = delete;

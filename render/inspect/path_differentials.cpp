@@ -12,7 +12,7 @@ namespace tessera {
 
 namespace {
 
-/// How large a part of its interval number j stands for, whatever light does; global deltas are all alike.
+/// Returns the delta of number j without the limit on the change of light. Global deltas are equal for all j.
 float even_delta(const PathDerivatives& x, std::size_t j, const DeltaRule& rule) {
     if (rule.is_global)
         return std::exp2(-std::log2(rule.samples * x.chance) / static_cast<float>(x.numbers));
@@ -20,10 +20,10 @@ float even_delta(const PathDerivatives& x, std::size_t j, const DeltaRule& rule)
     return 1 / std::sqrt(is_of_pixel ? rule.samples : rule.splits * x.choice[j]);
 }
 
-/// The logarithm of what light sample `light` brings to x, without its radiance: f cos, and the pdf of emitter
-/// sampling as seen from there; with its point moved. Empty: it does not reach x there.
-std::optional<float> log_brought(const Vertex& x, LightPoint light, glm::vec3 by) {
-    light.position += by;
+/// Returns log(f cos / pdf_w) of a light sample moved by `offset`, with the pdf of emitter sampling per solid
+/// angle at x. Empty: the moved light does not reach x.
+std::optional<float> log_contribution(const Vertex& x, LightPoint light, glm::vec3 offset) {
+    light.position += offset;
     const std::optional<LightRay> seen = light.seen_from(x.position);
     if (!seen)
         return {};
@@ -31,10 +31,10 @@ std::optional<float> log_brought(const Vertex& x, LightPoint light, glm::vec3 by
     return value > 0 ? std::optional(std::log(value)) : std::nullopt;
 }
 
-/// How that changes along a vector.
-float gradient_along(const Vertex& x, const LightPoint& light, glm::vec3 by) {
-    const float step = 1e-3f * glm::distance(x.position, light.position) / std::max(glm::length(by), 1e-20f);
-    const auto more = log_brought(x, light, step * by), less = log_brought(x, light, -step * by);
+/// Returns the derivative of log_contribution() along a vector, by central differences.
+float gradient_along(const Vertex& x, const LightPoint& light, glm::vec3 along) {
+    const float step = 1e-3f * glm::distance(x.position, light.position) / std::max(glm::length(along), 1e-20f);
+    const auto more = log_contribution(x, light, step * along), less = log_contribution(x, light, -step * along);
     return more && less ? (*more - *less) / (2 * step) : 0;
 }
 
@@ -74,17 +74,16 @@ float Footprint::area() const {
 }
 
 NumberVectors differential_vectors(const PathDerivatives& point, const DeltaRule& rule) {
-    NumberVectors vectors; // of which no more is set than there are, to a whole vector
+    NumberVectors vectors; // only the first padded(count) entries are set
     const auto count = static_cast<std::size_t>(NumberVectors::padded(point.count));
     const float most = rule.most_change > 0 ? rule.most_change : std::numeric_limits<float>::infinity();
-    std::array<float, NumberVectors::most> whole;
-    std::fill_n(whole.begin(), count, rule.is_global ? std::min(even_delta(point, 0, rule), 1.0f) : 0);
+    std::array<float, NumberVectors::most> deltas;
+    std::fill_n(deltas.begin(), count, rule.is_global ? std::min(even_delta(point, 0, rule), 1.0f) : 0);
     if (!rule.is_global)
         for (std::size_t j = 0; j < static_cast<std::size_t>(point.count); ++j)
-            whole[j] = std::min(even_delta(point, j, rule), 1.0f);
+            deltas[j] = std::min(even_delta(point, j, rule), 1.0f);
     for (std::size_t j = 0; j < count; ++j) {
-        // Light is to change by no more than it may within it.
-        const float within = most / std::abs(point.gradient[j]), delta = within < whole[j] ? within : whole[j];
+        const float limit = most / std::abs(point.gradient[j]), delta = limit < deltas[j] ? limit : deltas[j];
         vectors.x[j] = delta * point.position.x[j];
         vectors.y[j] = delta * point.position.y[j];
         vectors.z[j] = delta * point.position.z[j];
@@ -98,11 +97,11 @@ Footprint footprint(const PathDerivatives& point, const DeltaRule& rule) {
 
 namespace {
 
-/// One of each lane of a vector.
+/// One vector per lane.
 struct LaneVectors {
     alignas(32) std::array<float, NumberVectors::lanes> x{}, y{}, z{};
 
-    /// By halves, which wait less for each other.
+    /// Returns the sum over lanes by pairwise addition, which shortens dependency chains.
     glm::vec3 sum() {
         for (std::size_t half = x.size() / 2; half > 0; half /= 2)
             for (std::size_t lane = 0; lane < half; ++lane) {
@@ -130,18 +129,18 @@ glm::vec3 longest_of(const NumberVectors& v, std::size_t count) {
     return {best.x[lane], best.y[lane], best.z[lane]};
 }
 
-/// The sum of all that do not point against `across`, each turned to the side of `to` first. An `across` of 0: of
-/// all.
+/// Flips all vectors to the side of `to`, and returns the sum of those with no negative component along `across`.
+/// With `across` = 0 it is the sum of all.
 glm::vec3 sum_across(const NumberVectors& v, std::size_t count, glm::vec3 to, glm::vec3 across) {
     LaneVectors sums;
     for (std::size_t i = 0; i < count; i += sums.x.size())
         for (std::size_t lane = 0; lane < sums.x.size(); ++lane) {
             const float x = v.x[i + lane], y = v.y[i + lane], z = v.z[i + lane];
             const float sign = std::copysign(1.0f, x * to.x + y * to.y + z * to.z);
-            const float share = sign * (x * across.x + y * across.y + z * across.z) >= 0 ? sign : 0.0f;
-            sums.x[lane] += share * x;
-            sums.y[lane] += share * y;
-            sums.z[lane] += share * z;
+            const float factor = sign * (x * across.x + y * across.y + z * across.z) >= 0 ? sign : 0.0f;
+            sums.x[lane] += factor * x;
+            sums.y[lane] += factor * y;
+            sums.z[lane] += factor * z;
         }
     return sums.sum();
 }
@@ -150,7 +149,7 @@ glm::vec3 sum_across(const NumberVectors& v, std::size_t count, glm::vec3 to, gl
 
 Footprint reduce(const NumberVectors& segments, int count, glm::vec3 normal) {
     const auto lanes = static_cast<std::size_t>(NumberVectors::padded(count));
-    // A segment has no sign: all are turned to one side, that of the longest.
+    // A segment has no sign: all are flipped to the side of the longest one.
     const glm::vec3 one_side = longest_of(segments, lanes);
     const glm::vec3 sum = sum_across(segments, lanes, one_side, glm::vec3(0));
     Footprint f;

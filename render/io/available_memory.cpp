@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
 
-/// The first number of the line that begins with `name`, of a file of the system; `unknown` where there is none,
-/// or where it says "max".
+/// Returns the first number of the line that begins with `name` in a system file; `unknown` if there is none,
+/// as for "max".
 std::uint64_t number_in(const std::filesystem::path& file, std::string_view name = "") {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
@@ -31,20 +31,20 @@ std::uint64_t number_in(const std::filesystem::path& file, std::string_view name
     return unknown;
 }
 
-std::uint64_t left_of(std::uint64_t limit, std::uint64_t used) {
+std::uint64_t remaining(std::uint64_t limit, std::uint64_t used) {
     if (limit == unknown || used == unknown)
         return unknown;
     return limit - std::min(limit, used);
 }
 
-std::uint64_t left_of_machine() {
+std::uint64_t free_in_machine() {
     const std::uint64_t kib = number_in("/proc/meminfo", "MemAvailable:");
     return kib == unknown ? unknown : kib * 1024;
 }
 
-/// What the control group of this process and those around it leave it. Pages of files that it could give back do
-/// not count as used.
-std::uint64_t left_of_control_groups() {
+/// Returns the memory that this process's control group and its ancestors leave. Inactive file pages count as
+/// free, because the system can reclaim them.
+std::uint64_t free_in_control_groups() {
     std::uint64_t left = unknown;
     std::ifstream groups("/proc/self/cgroup");
     for (std::string line; std::getline(groups, line);) {
@@ -62,7 +62,7 @@ std::uint64_t left_of_control_groups() {
             const std::uint64_t taken = number_in(folder / used);
             const bool knows_files = taken != unknown && files != unknown;
             left = std::min(
-                left, left_of(number_in(folder / limit), knows_files ? taken - std::min(taken, files) : taken));
+                left, remaining(number_in(folder / limit), knows_files ? taken - std::min(taken, files) : taken));
             if (group == group.parent_path())
                 break;
         }
@@ -70,37 +70,37 @@ std::uint64_t left_of_control_groups() {
     return left;
 }
 
-std::uint64_t left_of_address_space() {
+std::uint64_t free_in_address_space() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return unknown;
     const std::uint64_t pages = number_in("/proc/self/statm");
-    return left_of(limit.rlim_cur,
-                   pages == unknown ? unknown : pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
+    return remaining(limit.rlim_cur,
+                     pages == unknown ? unknown : pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
 }
 
-/// Bytes that this process can still take; `unknown` where the system does not say.
+/// Returns the bytes that this process can allocate; `unknown` if the system does not say.
 std::uint64_t available_memory() {
-    return std::min({left_of_machine(), left_of_control_groups(), left_of_address_space()});
+    return std::min({free_in_machine(), free_in_control_groups(), free_in_address_space()});
 }
 
-/// "1.5 GiB", "20 MiB", for people.
+/// Formats bytes as "1.5 GiB" or "20 MiB".
 std::string memory_text(std::uint64_t bytes) {
     constexpr double mib = 1 << 20, gib = 1 << 30;
     const auto size = static_cast<double>(bytes);
     return size < gib ? fmt::format("{:.0f} MiB", size / mib) : fmt::format("{:.1f} GiB", size / gib);
 }
 
-constexpr std::uint64_t hardly_any = 1 << 20; // nobody runs out of that: and asking takes a while
+constexpr std::uint64_t smallest_checked = 1 << 20; // bytes; smaller requests skip the slow check; not tuned
 
 } // namespace
 
 bool is_memory_free(std::uint64_t bytes) {
-    return bytes < hardly_any || bytes <= available_memory();
+    return bytes < smallest_checked || bytes <= available_memory();
 }
 
 void ask_for_memory(std::uint64_t bytes, const std::string& what) {
-    if (bytes < hardly_any)
+    if (bytes < smallest_checked)
         return;
     const std::uint64_t available = available_memory();
     if (bytes > available)

@@ -9,23 +9,23 @@
 
 namespace tessera {
 
-/// There is not enough memory.
+/// Thrown if there is not enough memory.
 class OutOfMemory : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// Memory is asked for before it is taken: where there is too little, the system either ends the program or slows
-/// the machine to a halt, and nobody learns why. Throws OutOfMemory with the figures, "8192x8192 pixels of gpr
-/// need 12.1 GiB of memory, and 7.0 GiB are free", where the machine, the control group or the limit of address
-/// space (ulimit -v) leaves fewer `bytes`. `what` is in the plural.
+/// Checks for free memory before a large allocation, because the system kills the program or swaps endlessly
+/// when memory runs out. Throws OutOfMemory, such as "8192x8192 pixels of gpr need 12.1 GiB of memory, and 7.0
+/// GiB are free", if the machine, the control group or the address space limit (ulimit -v) leaves fewer bytes.
+/// `what` is in the plural.
 void ask_for_memory(std::uint64_t bytes, const std::string& what);
 
-/// Whether so many can be taken, for what can be done without.
+/// Returns whether that many bytes are free, for an optional allocation.
 bool is_memory_free(std::uint64_t bytes);
 
-/// Does `work`, and returns what it returns. Where memory ends in the midst of it, unforeseen, throws OutOfMemory
-/// that says during what: "there is not enough memory for loading box.xml".
+/// Calls `work` and returns its result. Turns std::bad_alloc into OutOfMemory: "there is not enough memory for
+/// loading box.xml", where `what` is "loading box.xml".
 template <class Work>
 decltype(auto) with_memory_for(const std::string& what, Work&& work) {
     try {
@@ -35,7 +35,7 @@ decltype(auto) with_memory_for(const std::string& what, Work&& work) {
     }
 }
 
-/// What an exception says, for people: of itself, std::bad_alloc says "std::bad_alloc".
+/// Returns an exception's message for users; std::bad_alloc becomes "there is not enough memory".
 std::string message_of(const std::exception& error);
 
 } // namespace tessera

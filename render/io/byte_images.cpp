@@ -13,8 +13,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 
-// Of stb_image what is simple: fuzzing finds undefined behaviour in its reader of JPEG, that of Softimage pictures
-// crashes, and it takes a file for whatever it looks like.
+// Only the simple readers of stb_image are compiled: fuzzing finds undefined behaviour or crashes in others.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -33,25 +32,25 @@ namespace tessera {
 
 namespace {
 
-/// The picture's memory, once its size is known and found fit.
+/// Returns an image of that size, after checking the size and the free memory.
 ByteImage image_of(std::int64_t width, std::int64_t height, std::size_t file_bytes) {
     check_image_size(width, height, file_bytes);
     const auto bytes = 3 * static_cast<std::uint64_t>(width * height);
-    ask_for_memory(2 * bytes, "its pixels"); // they, and what the decoders have beside them
+    ask_for_memory(2 * bytes, "its pixels"); // the pixels, and the decoder's copy
     return {static_cast<int>(width), static_cast<int>(height), std::vector<std::uint8_t>(bytes)};
 }
 
 [[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error("it is no readable picture: " + what);
+    throw std::runtime_error("the picture cannot be read: " + what);
 }
 
-void check_wanted(const std::function<bool()>& wanted) {
-    if (!wanted())
-        throw std::runtime_error("it is wanted no more");
+void check_not_cancelled(const std::function<bool()>& keep_reading) {
+    if (!keep_reading())
+        throw std::runtime_error("reading was cancelled");
 }
 
-/// libpng ends a call that fails by longjmp: so these functions have nothing on their stack that must be
-/// destroyed, and nothing throws through them.
+/// Reads PNG. libpng reports errors by longjmp, so functions that call it have no local objects with
+/// destructors, and no callback throws.
 class PngReader {
 public:
     explicit PngReader(std::string_view bytes) : left_(bytes) {
@@ -142,42 +141,42 @@ bool is_bmp(std::string_view bytes) {
     return bytes.starts_with("BM");
 }
 
-ByteImage parse_png(std::string_view bytes, const std::function<bool()>& wanted) {
+ByteImage parse_png(std::string_view bytes, const std::function<bool()>& keep_reading) {
     PngReader reader(bytes);
     if (!reader.read_header())
         fail(reader.error());
     ByteImage image = image_of(reader.width(), reader.height(), bytes.size());
     const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width);
     if (reader.row_bytes() != row_bytes)
-        fail("its pixels cannot be made red, green and blue");
+        fail("its pixels cannot be converted to RGB");
     for (int pass = 0; pass < reader.passes(); ++pass)
         for (int y = 0; y < image.height; ++y) {
-            check_wanted(wanted);
+            check_not_cancelled(keep_reading);
             if (!reader.read_row(image.rgb.data() + row_bytes * static_cast<std::size_t>(y)))
                 fail(reader.error());
         }
     return image;
 }
 
-ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& wanted) {
+ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& keep_reading) {
     const TurboJpeg jpeg;
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     int width = 0, height = 0, subsampling = 0, colours = 0;
     if (tjDecompressHeader3(jpeg.handle, data, bytes.size(), &width, &height, &subsampling, &colours) != 0)
         fail(tjGetErrorStr2(jpeg.handle));
     ByteImage image = image_of(width, height, bytes.size());
-    check_wanted(wanted);
-    // A file of thousands of scans over the whole picture would take minutes.
-    const bool is_fine = tjDecompress2(jpeg.handle, data, bytes.size(), image.rgb.data(), width, 0, height,
-                                       TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) == 0;
-    const std::string why = is_fine ? "" : tjGetErrorStr2(jpeg.handle);
-    // Many cameras leave a few bytes too many between the parts of a file, which harm nothing.
-    if (!is_fine && (tjGetErrorCode(jpeg.handle) != TJERR_WARNING || why.find("extraneous bytes") == why.npos))
+    check_not_cancelled(keep_reading);
+    // TJFLAG_LIMITSCANS: decoding thousands of scans of the whole picture would take minutes.
+    const bool succeeded = tjDecompress2(jpeg.handle, data, bytes.size(), image.rgb.data(), width, 0, height,
+                                         TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) == 0;
+    const std::string why = succeeded ? "" : tjGetErrorStr2(jpeg.handle);
+    // Many cameras write extraneous bytes between the parts of a file, which are harmless.
+    if (!succeeded && (tjGetErrorCode(jpeg.handle) != TJERR_WARNING || why.find("extraneous bytes") == why.npos))
         fail(why);
     return image;
 }
 
-ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& wanted) {
+ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& keep_reading) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (bytes.size() > std::size_t{1} << 30)
         fail("the file is larger than 1 GiB");
@@ -186,11 +185,11 @@ ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& 
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         fail(stbi_failure_reason());
     ByteImage image = image_of(width, height, bytes.size());
-    check_wanted(wanted);
+    check_not_cancelled(keep_reading);
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
     if (!pixels || width != image.width || height != image.height)
-        fail(pixels ? "it has two sizes" : stbi_failure_reason());
+        fail(pixels ? "its size is inconsistent" : stbi_failure_reason());
     std::copy_n(pixels.get(), image.rgb.size(), image.rgb.begin());
     return image;
 }

@@ -38,7 +38,7 @@ bool ByteWindow::refill(std::size_t count) {
 struct ZlibReader::State {
     explicit State(std::istream& source) : compressed(source) {
         if (inflateInit(&zlib) != Z_OK)
-            throw std::runtime_error("zlib does not start");
+            throw std::runtime_error("zlib cannot be initialised");
     }
     ~State() { inflateEnd(&zlib); }
     State(const State&) = delete;
@@ -64,12 +64,12 @@ void ZlibReader::read(void* bytes, std::size_t size) {
     z_stream& zlib = state_->zlib;
     zlib.next_out = static_cast<Bytef*>(bytes);
     while (size > 0) {
-        const auto now = static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<uInt>::max()));
-        zlib.avail_out = now;
+        const auto chunk = static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<uInt>::max()));
+        zlib.avail_out = chunk;
         if (zlib.avail_in == 0)
             state_->refill();
         const int result = inflate(&zlib, Z_NO_FLUSH);
-        size -= now - zlib.avail_out;
+        size -= chunk - zlib.avail_out;
         if (result == Z_STREAM_END && size > 0)
             throw std::runtime_error("the compressed data end too early");
         if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
@@ -79,7 +79,7 @@ void ZlibReader::read(void* bytes, std::size_t size) {
 
 std::uint32_t checksum(std::span<const std::byte> bytes, std::uint32_t before) {
     if (bytes.empty())
-        return before; // zlib takes a null pointer for a new beginning
+        return before; // for a null pointer, zlib returns the initial checksum
     return static_cast<std::uint32_t>(
         crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }

@@ -9,21 +9,21 @@
 
 namespace tessera {
 
-/// The bytes of a stream from where it stands, a part of them in memory at a time.
+/// A window into the bytes of a stream, from its current position to its end.
 class ByteWindow {
 public:
     static constexpr std::size_t capacity = std::size_t{1} << 18;
 
     explicit ByteWindow(std::istream& stream);
 
-    /// The bytes in memory that were not taken yet.
+    /// Returns the bytes in memory that were not taken yet.
     std::string_view bytes() const { return bytes_; }
     void take(std::size_t count) { bytes_.remove_prefix(count); }
 
-    /// Brings at least `count` bytes into memory (no more than `capacity`); false when the stream ends before.
+    /// Loads at least `count` bytes (at most `capacity`). Returns false if the stream ends before.
     bool fill(std::size_t count) { return bytes_.size() >= count || refill(count); }
 
-    /// How many bytes were not taken yet, in memory or not.
+    /// Returns how many bytes of the stream were not taken yet.
     std::uint64_t left() const { return bytes_.size() + unread_; }
 
 private:
@@ -31,17 +31,17 @@ private:
 
     std::istream& stream_;
     std::vector<char> buffer_;
-    std::string_view bytes_; // part of the buffer
-    std::uint64_t unread_;   // bytes in the stream
+    std::string_view bytes_; // within the buffer
+    std::uint64_t unread_;   // bytes that are still in the stream
 };
 
-/// The bytes that a zlib stream holds, from where `compressed` stands.
+/// Decompresses a zlib stream, from the current position of `compressed`.
 class ZlibReader {
 public:
     explicit ZlibReader(std::istream& compressed);
     ~ZlibReader();
 
-    /// Fills `size` bytes. Throws std::runtime_error when there are not as many, or the stream is broken.
+    /// Reads `size` bytes. Throws std::runtime_error if the stream ends before or is corrupt.
     void read(void* bytes, std::size_t size);
 
     template <class T>

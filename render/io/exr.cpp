@@ -24,9 +24,9 @@ namespace tessera {
 
 namespace {
 
-constexpr int rows_at_once = 64; // of what is read: OpenEXR itself can neither be watched nor stopped
+constexpr int rows_per_call = 64; // rows read between calls of the watch; not tuned
 
-/// A layer by its name and channels.
+/// Name and channels of a layer.
 struct LayerName {
     std::string name;
     ExrChannels channels = ExrChannels::rgb;
@@ -44,12 +44,13 @@ std::string channel_name(const LayerName& layer, int i) {
     return layer.name.empty() ? std::string(1, channel) : layer.name + "." + channel;
 }
 
-/// Where OpenEXR finds channel `channel` of an image whose first pixel is (first_x, first_y) of the file.
+/// Returns the memory layout of channel `channel`, for an image whose first pixel is (first_x, first_y) of the
+/// file.
 Imf::Slice slice(const RgbImage& image, int channel, int first_x = 0, int first_y = 0) {
     const std::size_t row = sizeof(Rgb) * static_cast<std::size_t>(image.width());
     const auto first_pixel =
         static_cast<std::ptrdiff_t>(sizeof(Rgb)) * first_x + static_cast<std::ptrdiff_t>(row) * first_y;
-    // OpenEXR takes pointers to mutable memory for writing, too, and does not write there.
+    // OpenEXR wants mutable memory for writing, too, but does not modify it.
     char* base = reinterpret_cast<char*>(const_cast<float*>(&image.data()->x) + channel);
     return {Imf::FLOAT, base - first_pixel, sizeof(Rgb), row, 1, 1, 0.0};
 }
@@ -58,7 +59,7 @@ void check_layers(const ExrFile& file) {
     if (file.layers.empty() || file.layers.front().image.empty())
         throw std::runtime_error("there is no image to write");
     const RgbImage& first = file.layers.front().image;
-    check_image_size(first.width(), first.height()); // what could not be read again
+    check_image_size(first.width(), first.height()); // larger images cannot be read again
     for (const ExrLayer& layer : file.layers)
         if (layer.image.width() != first.width() || layer.image.height() != first.height())
             throw std::runtime_error("layer \"" + layer.name + "\" differs in size from the first");
@@ -68,7 +69,7 @@ void write_layers(const std::filesystem::path& path, const ExrFile& file) {
     check_layers(file);
     const RgbImage& first = file.layers.front().image;
     Imf::Header header(first.width(), first.height());
-    header.compression() = Imf::NO_COMPRESSION; // noise hardly gets smaller, and takes seconds to try
+    header.compression() = Imf::NO_COMPRESSION; // noise hardly compresses, and trying takes seconds
     for (const auto& [name, text] : file.attributes)
         header.insert(name, Imf::StringAttribute(text));
     Imf::FrameBuffer buffer;
@@ -84,12 +85,12 @@ void write_layers(const std::filesystem::path& path, const ExrFile& file) {
     output.writePixels(first.height());
 }
 
-/// Whether the plain picture is a lone Y.
+/// Returns whether the plain layer is a lone Y.
 bool is_grey(const Imf::ChannelList& channels) {
     return !channels.findChannel("R") && channels.findChannel("Y");
 }
 
-/// Whether the file has all channels of a layer.
+/// Returns whether the file has all channels of a layer.
 bool has_layer(const Imf::ChannelList& channels, const LayerName& layer) {
     for (int i = 0; i < channel_count(layer.channels); ++i)
         if (!channels.findChannel(channel_name(layer, i)))
@@ -97,7 +98,7 @@ bool has_layer(const Imf::ChannelList& channels, const LayerName& layer) {
     return true;
 }
 
-/// Returns the layers that have three channels, the plain one first, in the order of the file.
+/// Returns the layers of three channels: the plain one, then RGB and then XYZ layers in file order.
 std::vector<LayerName> layers_of_three(const Imf::ChannelList& channels) {
     std::vector<LayerName> layers;
     if (has_layer(channels, {""}) || channels.findChannel("Y"))
@@ -114,7 +115,7 @@ std::vector<LayerName> layers_of_three(const Imf::ChannelList& channels) {
     return layers;
 }
 
-/// Returns all layers: those of three channels, then a layer for each other channel but alpha.
+/// Returns all layers: those with three channels, then one for each other channel but alpha.
 std::vector<LayerName> layers_in(const Imf::ChannelList& channels) {
     std::vector<LayerName> layers = layers_of_three(channels);
     std::set<std::string> taken;
@@ -145,10 +146,10 @@ Size size_of(const Imath::Box2i& window, std::uintmax_t file_bytes) {
 void read_rows(Imf::InputPart& part, int first, int last, const ReadWatch& watch) {
     const auto row = [&](std::int64_t n) { return static_cast<int>(std::min<std::int64_t>(first + n, last)); };
     const std::int64_t count = std::int64_t{last} - first + 1;
-    for (std::int64_t done = 0; done < count; done += rows_at_once) {
+    for (std::int64_t done = 0; done < count; done += rows_per_call) {
         if (watch && !watch(static_cast<float>(done) / static_cast<float>(count)))
-            throw std::runtime_error("it is wanted no more");
-        part.readPixels(row(done), row(done + rows_at_once - 1));
+            throw std::runtime_error("reading was cancelled");
+        part.readPixels(row(done), row(done + rows_per_call - 1));
     }
 }
 
@@ -160,20 +161,20 @@ std::map<std::string, std::string> attributes_of(const Imf::Header& header) {
     return attributes;
 }
 
-/// What reading takes: the pixels, and what OpenEXR unpacks at once, which are whole rows of all channels.
+/// Asks for the memory of reading: the pixels, and a chunk of rows of all channels, which OpenEXR decompresses.
 void ask_for_layers(const Imf::Header& header, Size size, std::size_t layers) {
-    constexpr std::uint64_t most_rows_a_chunk = 256; // of DWAB
+    constexpr std::uint64_t max_rows_per_chunk = 256; // in DWAB compression
     std::uint64_t channels = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         ++channels;
     const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
     ask_for_memory(sizeof(Rgb) * width * height * layers +
-                       2 * sizeof(float) * width * std::min(height, most_rows_a_chunk) * channels,
+                       2 * sizeof(float) * width * std::min(height, max_rows_per_chunk) * channels,
                    "its pixels");
 }
 
-/// Chooses the layers to read among those of the file.
-using LayerChoice = std::function<std::vector<LayerName>(const std::vector<LayerName>& there)>;
+/// Selects the layers to read from those of the file.
+using LayerChoice = std::function<std::vector<LayerName>(const std::vector<LayerName>& available)>;
 
 ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, const ReadWatch& watch,
                     const LayerChoice& choose) {
@@ -182,10 +183,10 @@ ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, c
     const Imath::Box2i window = header.dataWindow();
     const Size size = size_of(window, file_bytes);
     const Imf::ChannelList& channels = header.channels();
-    const std::vector<LayerName> there = layers_in(channels);
-    if (there.empty() || there.front().channels != ExrChannels::rgb)
+    const std::vector<LayerName> available = layers_in(channels);
+    if (available.empty() || available.front().channels != ExrChannels::rgb)
         throw std::runtime_error("it has no R, G and B channels");
-    const std::vector<LayerName> chosen = choose(there);
+    const std::vector<LayerName> chosen = choose(available);
     ask_for_layers(header, size, chosen.size());
     ExrFile file;
     for (const LayerName& layer : chosen)
@@ -195,7 +196,7 @@ ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, c
     };
     Imf::FrameBuffer buffer;
     for (const ExrLayer& layer : file.layers) {
-        // A lone Y is the single channel of the layer "".
+        // A lone Y is read as the single channel of the layer "".
         const LayerName name = is_single(layer)
                                    ? LayerName{layer.name.empty() ? "Y" : layer.name, ExrChannels::single}
                                    : LayerName{layer.name, layer.channels};
@@ -212,7 +213,7 @@ ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, c
     return file;
 }
 
-/// A file in memory, as OpenEXR reads it.
+/// Gives OpenEXR access to a file in memory.
 class MemoryStream : public Imf::IStream {
 public:
     explicit MemoryStream(std::string_view bytes) : Imf::IStream("a picture"), bytes_(bytes) {}
@@ -266,22 +267,22 @@ bool is_exr(std::string_view bytes) {
 RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch) {
     MemoryStream stream(bytes);
     Imf::MultiPartInputFile input(stream);
-    ExrFile file = read_layers(input, bytes.size(), watch, [](const std::vector<LayerName>& there) {
-        return std::vector<LayerName>{there.front()}; // the plain one, where the file has it
+    ExrFile file = read_layers(input, bytes.size(), watch, [](const std::vector<LayerName>& available) {
+        return std::vector<LayerName>{available.front()}; // the plain layer comes first
     });
     return std::move(file.layers.front().image);
 }
 
 ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch,
-                 const std::vector<std::string>& wanted) {
+                 const std::vector<std::string>& names) {
     try {
-        open_file(path); // says why it cannot be
+        open_file(path); // throws with a better reason than OpenEXR
         Imf::MultiPartInputFile input(path.c_str());
         return read_layers(input, std::filesystem::file_size(path), watch,
-                           [&](const std::vector<LayerName>& there) {
+                           [&](const std::vector<LayerName>& available) {
                                std::vector<LayerName> layers;
-                               for (const LayerName& layer : there)
-                                   if (wanted.empty() || std::ranges::find(wanted, layer.name) != wanted.end())
+                               for (const LayerName& layer : available)
+                                   if (names.empty() || std::ranges::find(names, layer.name) != names.end())
                                        layers.push_back(layer);
                                return layers;
                            });

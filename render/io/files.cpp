@@ -26,8 +26,8 @@ namespace tessera {
 
 namespace {
 
-// No format gets further: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
-constexpr std::uintmax_t most_pixels_a_byte = std::uintmax_t{1} << 14;
+// No format exceeds it: PNG packs 8 pixels into a byte, and DEFLATE 1032 bytes into one.
+constexpr std::uintmax_t max_pixels_per_byte = std::uintmax_t{1} << 14;
 
 } // namespace
 
@@ -43,7 +43,7 @@ std::string size_text(std::int64_t width, std::int64_t height) {
 
 void check_image_size(std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
-        throw std::runtime_error("an image of " + size_text(width, height) + " has none");
+        throw std::runtime_error("an image of " + size_text(width, height) + " is empty");
     if (width > most_image_edge || height > most_image_edge || width * height > most_image_pixels)
         throw std::runtime_error("an image of " + size_text(width, height) + " is too large: at most " +
                                  std::to_string(most_image_edge) + " pixels along an edge, and " +
@@ -52,7 +52,7 @@ void check_image_size(std::int64_t width, std::int64_t height) {
 
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
     check_image_size(width, height);
-    if (static_cast<std::uintmax_t>(width * height) / most_pixels_a_byte > file_bytes)
+    if (static_cast<std::uintmax_t>(width * height) / max_pixels_per_byte > file_bytes)
         throw std::runtime_error("the file is too short for " + size_text(width, height));
 }
 
@@ -65,7 +65,7 @@ bool is_special(const std::filesystem::path& path) {
 
 std::ifstream open_file(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) // opens as a file does, and is then of endless size
+    if (std::filesystem::is_directory(file, ignored)) // a folder opens like a file, with an endless size
         throw std::runtime_error("this is a folder, not a file");
     if (is_special(file))
         throw std::runtime_error("this is a device or a pipe, not a file");
@@ -91,31 +91,29 @@ std::string read_bytes(const std::filesystem::path& file) {
 
 namespace {
 
-/// Where the numbers of processes mean what they mean to this one: eight digits for the machine, since it has
-/// started, and the container (a namespace of process numbers). Several machines and containers may write to one
-/// folder, and a process that is alive in one of them is nowhere to be seen in another. An advisory lock on the
-/// file would tell as well, but not on every network file system: some grant each machine locks of its own, and
-/// then a file that is being written looks forgotten. So what has another place's name is left alone, at the cost
-/// that somebody has to remove by hand what a power cut has left.
-const std::string& this_place() {
-    static const std::string place = [] {
+/// Returns eight hexadecimal digits that identify the space of process ids: this machine since boot, and this
+/// container (pid namespace). Several machines and containers may write to one folder, and cannot see each
+/// other's processes. Temporary files of other spaces are left alone, so somebody has to remove what a power
+/// cut leaves. Advisory locks would not do: some network file systems grant them per machine.
+const std::string& process_space() {
+    static const std::string space = [] {
         std::string machine;
         std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), machine);
         std::error_code unknown;
         const std::string container = std::filesystem::read_symlink("/proc/self/ns/pid", unknown).string();
-        std::uint32_t sum = std::random_device()(); // is nobody's again: nothing will be removed
+        std::uint32_t sum = std::random_device()(); // matches no other process, so nothing is removed
         if (!machine.empty() && !unknown)
             sum = checksum(std::as_bytes(std::span(container)), checksum(std::as_bytes(std::span(machine))));
         char digits[9];
         std::snprintf(digits, sizeof digits, "%08x", sum);
         return std::string(digits);
     }();
-    return place;
+    return space;
 }
 
-/// The process of this place that made "NAME.PLACE-PID-COUNT.tmp" for this NAME; 0: it is no such file.
-int maker_of(const std::string& file, const std::string& name) {
-    const std::string begin = name + "." + this_place();
+/// Returns the process of this id space that made "NAME.SPACE-PID-COUNT.tmp" for this NAME; 0: not such a file.
+int creator_of(const std::string& file, const std::string& name) {
+    const std::string begin = name + "." + process_space();
     int process = 0, count = 0, used = 0;
     if (!file.starts_with(begin) ||
         std::sscanf(file.c_str() + begin.size(), "-%d-%d.tmp%n", &process, &count, &used) != 2)
@@ -127,14 +125,14 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Where links lead to, there or not; the path itself where it is none. Of other links on the way the system takes
-/// care.
+/// Returns the end of a chain of links, which need not exist; the path itself if it is no link. The system
+/// resolves links among its parent folders.
 std::filesystem::path end_of_links(const std::filesystem::path& path) {
-    constexpr int most_links = 40; // as in Linux
+    constexpr int max_links = 40; // as in Linux
     std::filesystem::path end = path;
     std::error_code none;
     for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(end, none)); ++i) {
-        if (i == most_links)
+        if (i == max_links)
             throw std::filesystem::filesystem_error(
                 "cannot be written", path, std::make_error_code(std::errc::too_many_symbolic_link_levels));
         end = folder_of(end) / std::filesystem::read_symlink(end);
@@ -142,10 +140,10 @@ std::filesystem::path end_of_links(const std::filesystem::path& path) {
     return end;
 }
 
-/// Writes what a file holds into something that is there already.
-void pour(const std::filesystem::path& from, const std::filesystem::path& into) {
+/// Appends a file's content to an existing device or pipe.
+void append_content(const std::filesystem::path& from, const std::filesystem::path& into) {
     std::ofstream out(into, std::ios::binary | std::ios::app);
-    if (std::filesystem::file_size(from) > 0) // of nothing, << takes it for a failure
+    if (std::filesystem::file_size(from) > 0) // << fails for an empty buffer
         out << std::ifstream(from, std::ios::binary).rdbuf();
     out.close();
     if (!out)
@@ -155,15 +153,15 @@ void pour(const std::filesystem::path& from, const std::filesystem::path& into) 
 void remove_leftovers(const std::filesystem::path& final_path) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder_of(final_path), ignored)) {
-        const int process = maker_of(entry.path().filename().string(), final_path.filename().string());
+        const int process = creator_of(entry.path().filename().string(), final_path.filename().string());
         if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
             std::filesystem::remove(entry.path(), ignored);
     }
 }
 
-/// What the system still holds of a file or folder goes to the disk. The error, or 0: some file systems cannot do
-/// so, and say EINVAL.
-int write_through(const std::filesystem::path& path) {
+/// Syncs a file or folder to disk. Returns the error, or 0. EINVAL counts as success: some file systems cannot
+/// sync.
+int sync_to_disk(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
         return errno;
@@ -179,7 +177,8 @@ TemporaryFile::TemporaryFile(std::filesystem::path final_path)
       temporary_(is_in_place_ ? std::filesystem::temp_directory_path() / final_.filename() : final_) {
     remove_leftovers(temporary_);
     static std::atomic<int> count = 0;
-    temporary_ += "." + this_place() + "-" + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
+    temporary_ +=
+        "." + process_space() + "-" + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".tmp";
 }
 
 TemporaryFile::~TemporaryFile() {
@@ -190,10 +189,10 @@ TemporaryFile::~TemporaryFile() {
 
 void TemporaryFile::commit() {
     if (is_in_place_)
-        return pour(temporary_, final_);
-    // The file is to be on the disk before it takes the old one's place: else a power cut could leave neither. A
-    // full or broken disk may say so only now.
-    if (const int error = write_through(temporary_))
+        return append_content(temporary_, final_);
+    // The file must be on disk before it replaces the old one; otherwise a power cut could lose both. A full or
+    // broken disk may report its error only here.
+    if (const int error = sync_to_disk(temporary_))
         throw std::filesystem::filesystem_error("cannot be written", final_, {error, std::generic_category()});
     std::filesystem::rename(temporary_, final_);
     write_through_folder(folder_of(final_));
@@ -201,7 +200,7 @@ void TemporaryFile::commit() {
 }
 
 void write_through_folder(const std::filesystem::path& folder) {
-    write_through(folder); // a folder that may not be read cannot be helped
+    sync_to_disk(folder); // an error is ignored: the folder may be unreadable
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -217,8 +216,8 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 void check_writable(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path))
         throw std::runtime_error(path.string() + ": is a folder, not a file to write to");
-    // Trying is the only test that holds for root, full disks and odd file systems alike: with the very name that
-    // the file will be written under at first, which is no other run's.
+    // Only trying works for root, full disks and unusual file systems. The trial uses a temporary name
+    // beside the file, which no other run has.
     const TemporaryFile trial(path);
     const bool can_be_written = is_special(path) ? ::access(path.c_str(), W_OK) == 0
                                                  : std::ofstream(trial.path(), std::ios::binary).good();

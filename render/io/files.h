@@ -1,4 +1,4 @@
-// Files as a whole: they are read at once, and written so that there is never half a one.
+// Reading of whole files, and writing that never leaves an incomplete file.
 #pragma once
 
 #include <cstdint>
@@ -8,66 +8,63 @@
 
 namespace tessera {
 
-/// Whether there is a device, a pipe or the like at the path (or where its link leads): neither file nor folder.
+/// Returns whether the path (or the end of its link) is a device, a pipe or the like: neither file nor folder.
 bool is_special(const std::filesystem::path& path);
 
-/// A file to be read from its beginning; throws std::runtime_error that says why, also for what is no regular
-/// file: a device or a pipe may be of endless size, or keep who reads it waiting for ever.
+/// Opens a file for reading. Throws std::runtime_error with the reason, also for devices and pipes, which may
+/// be endless or block the reader forever.
 std::ifstream open_file(const std::filesystem::path& file);
 
-/// All of a file's bytes; throws std::runtime_error.
+/// Reads a whole file. Throws std::runtime_error.
 std::string read_bytes(const std::filesystem::path& file);
 
-/// ".exr": the end of the file's name, in lower case.
+/// Returns the extension of a file name in lower case, such as ".exr".
 std::string extension_of(const std::filesystem::path& file);
 
-/// The largest image that is rendered, written or read, whatever its format. At the most pixels, byte counts of
-/// 8-bit RGB still fit the int that the PNG encoder has for them.
+/// Largest image that is rendered, written or read, in any format. Byte counts of 8-bit RGB then fit the int
+/// that the PNG encoder uses.
 inline constexpr int most_image_edge = 32768;
 inline constexpr std::int64_t most_image_pixels = std::int64_t{1} << 28;
 
-/// Throws std::runtime_error that says why where there can be no image of that size.
+/// Throws std::runtime_error with the reason if no image may have that size (in pixels).
 void check_image_size(std::int64_t width, std::int64_t height);
 
-/// The same, and where a file of that many bytes cannot hold one.
+/// Does the same, and also throws if a file of that many bytes cannot hold such an image.
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes);
 
-/// A file that is written under a temporary name beside its own and takes its own name only when it is complete.
-/// So whatever happens, there is never half a file under that name. A link is followed: it is the file at its end
-/// that is written. What is there and no regular file, a device or a pipe, cannot be half a file, and must not
-/// become one: it stays, and gets the bytes.
+/// A file that is written under a temporary name in the same folder, and gets its final name when it is
+/// complete. So the final name never belongs to an incomplete file. A link is followed, and the file at its end
+/// is replaced. An existing device or pipe is not replaced: it receives the bytes.
 class TemporaryFile {
 public:
-    /// Removes what processes that were killed have left of the same file, as far as it is certain that they are
-    /// no more: those that ran since this machine has started, and in this container. Throws
-    /// std::filesystem::filesystem_error for links that lead to each other.
+    /// Removes temporary files that killed processes left of the same file. It removes only files of processes
+    /// that are certainly dead: those of this machine since boot, and of this container. Throws
+    /// std::filesystem::filesystem_error for a circle of links.
     explicit TemporaryFile(std::filesystem::path final_path);
-    ~TemporaryFile(); ///< removes the file unless it was committed
+    ~TemporaryFile(); ///< removes the temporary file unless committed
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
     const std::filesystem::path& path() const { return temporary_; }
 
-    /// The file is on the disk when it takes its name, and under that name when this returns: whatever is written
-    /// later may rely on it, power cuts included. Into a pipe it waits for who reads it. Throws
-    /// std::filesystem::filesystem_error.
+    /// Syncs the file to disk, renames it, and syncs the folder: later writes may rely on it even after a power
+    /// cut. Blocks on a pipe until it is read. Throws std::filesystem::filesystem_error.
     void commit();
 
 private:
     std::filesystem::path final_;
-    bool is_in_place_; // the bytes go into what is there
+    bool is_in_place_; // `final_` is a device or pipe, which gets the bytes
     std::filesystem::path temporary_;
 };
 
-/// Writes such a file and commits it. Throws std::runtime_error that names the file.
+/// Writes a text to a TemporaryFile and commits it. Throws std::runtime_error that names the file.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
-/// Makes sure that what was last made or renamed in the folder is there after a power cut, where the file system
-/// can.
+/// Syncs a folder, so that its last creations and renames survive a power cut, if the file system supports it.
 void write_through_folder(const std::filesystem::path& folder);
 
-/// Throws std::runtime_error that names the file where none can be made at `path`: better before a render than
-/// after it. Touches no other file.
+/// Throws std::runtime_error that names the file if it cannot be written. Call it before a render, not only
+/// after. Changes no other file.
 void check_writable(const std::filesystem::path& path);
 
 } // namespace tessera

@@ -10,15 +10,15 @@ namespace tessera {
 
 namespace {
 
-/// What the library says without its own numbering and place: "[json.exception.parse_error.101] parse error at
+/// Strips the library's prefix and suffix from its message: "[json.exception.parse_error.101] parse error at
 /// line 1, column 2: syntax error while parsing value - invalid literal; last read: 'x'".
 std::string bare_message(std::string what) {
     if (const std::size_t dash = what.find(" - "); dash != std::string::npos)
         what.erase(0, dash + 3);
-    return what.substr(0, what.find("; last read")); // the caret shows that
+    return what.substr(0, what.find("; last read")); // the caret shows what was read
 }
 
-/// Steps over the values of a valid text: the library does not tell where they are.
+/// Walks over a valid JSON text, because the library does not provide the offsets of values.
 class Scanner {
 public:
     explicit Scanner(std::string_view text) : text_(text) {}
@@ -27,7 +27,7 @@ public:
         return std::min(text_.find_first_not_of(" \t\r\n", at), text_.size());
     }
 
-    /// The place after the value that begins at `at`.
+    /// Returns the offset after the value that begins at `at`.
     std::size_t skip_value(std::size_t at) const {
         if (text_[at] == '"')
             return skip_string(at);
@@ -45,7 +45,8 @@ public:
         return at;
     }
 
-    /// Where the member or element of that name begins in the value that begins at `at`; npos: there is none.
+    /// Returns the offset of the named member or indexed element in the value that begins at `at`; npos: there
+    /// is none.
     std::size_t find(std::size_t at, std::string_view name) const {
         const bool is_object = text_[at] == '{';
         if (!is_object && text_[at] != '[')
@@ -77,7 +78,7 @@ private:
     std::string_view text_;
 };
 
-/// Where a text, JSON or not, opens one object or array too many in others; npos: nowhere.
+/// Returns the offset at which a text, JSON or not, exceeds deepest_json; npos: nowhere.
 std::size_t too_deep(std::string_view text) {
     int depth = 0;
     bool in_string = false;
@@ -96,7 +97,7 @@ std::size_t too_deep(std::string_view text) {
 }
 
 std::string deep_message() {
-    return fmt::format("more than {} objects and arrays lie in each other", deepest_json);
+    return fmt::format("objects and arrays are nested more than {} deep", deepest_json);
 }
 
 std::size_t line_begin(const std::string& text, std::size_t offset) {
@@ -130,8 +131,7 @@ nlohmann::ordered_json JsonText::parse() const {
         return nlohmann::ordered_json::parse(text_);
     } catch (const nlohmann::json::parse_error& e) {
         fail_at(e.byte > 0 ? e.byte - 1 : 0, "the JSON is broken: " + bare_message(e.what()));
-    } catch (
-        const nlohmann::json::exception& e) { // a number beyond all floats: it stands in the message in quotes
+    } catch (const nlohmann::json::exception& e) { // an overflowing number, quoted in the message
         const std::string what = e.what();
         const std::size_t open = what.find('\''), close = what.rfind('\'');
         const std::string number = open < close ? what.substr(open + 1, close - open - 1) : "";
@@ -172,12 +172,12 @@ std::string JsonText::only(std::string_view path) const {
     return text;
 }
 
-void JsonText::fail_at(std::size_t offset, const std::string& what) const {
+void JsonText::fail_at(std::size_t offset, const std::string& message) const {
     if (offset == std::string::npos)
-        throw LoadError({name_, 0, 0}, what);
+        throw LoadError({name_, 0, 0}, message);
     offset = std::min(offset, text_.size());
     const std::size_t begin = line_begin(text_, offset), end = std::min(text_.find('\n', begin), text_.size());
-    throw LoadError(position_at(offset), what, text_.substr(begin, end - begin));
+    throw LoadError(position_at(offset), message, text_.substr(begin, end - begin));
 }
 
 } // namespace tessera

@@ -37,13 +37,13 @@ void append(void* bytes, void* data, int size) {
     out.insert(out.end(), first, first + size);
 }
 
-// The encoder counts bytes by int, of rows that each have one more.
+// The encoder counts bytes in an int, with one extra byte a row.
 static_assert(3 * most_image_pixels + most_image_edge <= std::numeric_limits<int>::max());
 
 std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> rgb) {
     check_image_size(size.x, size.y);
     if (rgb.size() != 3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
-        throw std::runtime_error("there are other than three bytes for each pixel");
+        throw std::runtime_error("the image does not have three bytes a pixel");
     std::vector<char> bytes;
     if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), 3 * size.x))
         throw std::runtime_error("the image cannot be encoded");
@@ -77,7 +77,7 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
         if (!out)
-            throw std::runtime_error(errno != 0 ? std::strerror(errno) : "the disk takes no more");
+            throw std::runtime_error(errno != 0 ? std::strerror(errno) : "writing failed");
         temporary.commit();
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot write " + path.string() + ": " + message_of(error));
@@ -102,7 +102,7 @@ struct PfmHeader {
     bool is_little_endian;
 };
 
-/// The header's next word, taken from the bytes with the one character that ends it.
+/// Takes the header's next word, and the one character that ends it.
 std::string_view take_word(std::string_view& bytes) {
     bytes.remove_prefix(std::min(bytes.find_first_not_of(white_space), bytes.size()));
     const std::size_t length = bytes.find_first_of(white_space);
@@ -121,7 +121,7 @@ double take_number(std::string_view& bytes, const std::string& name) {
     return *number;
 }
 
-/// Reads a width or height, in pixels; what is no size of an image gets its message from check_image_size.
+/// Takes a width or height in pixels. check_image_size() rejects invalid sizes later.
 std::int64_t take_length(std::string_view& bytes, const std::string& name) {
     const double number = take_number(bytes, name);
     if (std::trunc(number) != number)
@@ -129,20 +129,20 @@ std::int64_t take_length(std::string_view& bytes, const std::string& name) {
     return static_cast<std::int64_t>(std::clamp(number, -1e15, 1e15));
 }
 
-/// Takes the header from the bytes, so that the pixels are left.
+/// Takes the header, so that only pixels are left.
 PfmHeader take_header(std::string_view& bytes) {
     const std::size_t file_bytes = bytes.size();
     if (!bytes.starts_with("PF") && !bytes.starts_with("Pf"))
         throw std::runtime_error("it is not a PFM file, which begins with PF or Pf");
     const std::string_view kind = take_word(bytes);
     if (kind.size() != 2)
-        throw std::runtime_error("it is of kind '" + std::string(kind.substr(0, 40)) + "', not PF or Pf");
+        throw std::runtime_error("its kind is '" + std::string(kind.substr(0, 40)) + "', not PF or Pf");
     const std::int64_t width = take_length(bytes, "width"), height = take_length(bytes, "height");
     check_image_size(width, height, file_bytes);
     const double scale = take_number(bytes, "scale");
     if (scale == 0)
         throw std::runtime_error("its scale is 0, and gives no byte order");
-    // One character ends the header, where lines do not end in two.
+    // One character ends the header, unless lines end in \r\n.
     if (bytes.data()[-1] == '\r' && bytes.starts_with('\n'))
         bytes.remove_prefix(1);
     return {static_cast<int>(width), static_cast<int>(height), kind == "PF" ? 3 : 1, scale < 0};

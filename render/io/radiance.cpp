@@ -16,9 +16,9 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-constexpr std::string_view marks[] = {"#?RADIANCE\n", "#?RGBE\n"};
+constexpr std::string_view signatures[] = {"#?RADIANCE\n", "#?RGBE\n"};
 
-/// Takes bytes from the front; throws at the end.
+/// Takes bytes from the front. Throws std::runtime_error at the end.
 class Bytes {
 public:
     explicit Bytes(std::string_view bytes) : left_(bytes) {}
@@ -48,9 +48,9 @@ private:
     std::string_view left_;
 };
 
-/// A row whose four channels are coded one after the other: a count above 128 repeats the byte that follows,
-/// another is that of the bytes that follow. No count of 0, and none beyond the row: either would never end, or
-/// end elsewhere.
+/// Reads a row whose four channels are run-length encoded one after the other. A count above 128 repeats the
+/// next byte; a smaller one precedes that many literal bytes. A count of 0 would never end, and one beyond the
+/// row would overflow: both throw.
 void read_runs(Bytes& bytes, std::vector<Rgbe>& row) {
     for (std::size_t channel = 0; channel < 4; ++channel) {
         for (std::size_t x = 0; x < row.size();) {
@@ -74,7 +74,7 @@ void read_row(Bytes& bytes, std::vector<Rgbe>& row) {
     if (has_runs) {
         const Rgbe head = bytes.pixel();
         if ((std::size_t{head[2]} << 8 | head[3]) != width)
-            throw std::runtime_error("a row is of another width than the picture");
+            throw std::runtime_error("a row's width differs from the picture's");
         return read_runs(bytes, row);
     }
     for (Rgbe& pixel : row)
@@ -89,10 +89,10 @@ Rgb color_of(const Rgbe& p) {
 } // namespace
 
 bool is_radiance(std::string_view bytes) {
-    return bytes.starts_with(marks[0]) || bytes.starts_with(marks[1]);
+    return bytes.starts_with(signatures[0]) || bytes.starts_with(signatures[1]);
 }
 
-RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& wanted) {
+RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& keep_reading) {
     Bytes bytes(encoded);
     bool is_rgbe = false;
     for (std::string line = bytes.line(); !line.empty(); line = bytes.line())
@@ -110,8 +110,8 @@ RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& w
     RgbImage image(width, height);
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {
-        if (!wanted())
-            throw std::runtime_error("it is wanted no more");
+        if (!keep_reading())
+            throw std::runtime_error("reading was cancelled");
         read_row(bytes, row);
         for (int x = 0; x < width; ++x)
             image(x, y) = color_of(row[x]);

@@ -18,10 +18,10 @@ namespace tessera {
 
 namespace {
 
-// A line may hold a matrix, or a whole file: what is shown stays on one line of a terminal.
-constexpr std::size_t shown_length = 150;
+// Longest excerpt of a source line, which may hold a whole file. Fits a line of a terminal.
+constexpr std::size_t max_excerpt = 150;
 
-/// How many columns of a terminal the text takes: bytes of UTF-8 without the continuation bytes.
+/// Returns the number of code points of UTF-8 text, which approximates its columns in a terminal.
 std::size_t width_of(const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; }));
@@ -29,20 +29,19 @@ std::size_t width_of(const std::string& text) {
 
 std::string with_caret(const std::string& source_line, int column) {
     std::string line = source_line;
-    std::replace_if(
-        line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
     if (column < 1)
-        return "\n    " + line.substr(0, shown_length);
+        return "\n    " + line.substr(0, max_excerpt);
     std::size_t at = std::min(static_cast<std::size_t>(column - 1), line.size());
     std::string prefix;
-    if (at > shown_length * 2 / 3) {
-        const std::size_t cut = at - shown_length / 2;
+    if (at > max_excerpt * 2 / 3) {
+        const std::size_t cut = at - max_excerpt / 2;
         line.erase(0, cut);
         at -= cut;
         prefix = "...";
     }
     const std::size_t caret = prefix.size() + width_of(line.substr(0, at));
-    return "\n    " + prefix + line.substr(0, shown_length) + "\n    " + std::string(caret, ' ') + "^";
+    return "\n    " + prefix + line.substr(0, max_excerpt) + "\n    " + std::string(caret, ' ') + "^";
 }
 
 } // namespace
@@ -62,7 +61,7 @@ LoadError::LoadError(const FilePosition& where, const std::string& text, const s
 
 namespace {
 
-/// How many bytes the character takes that begins there; 0: they are no UTF-8.
+/// Returns the number of bytes of the first character; 0: invalid UTF-8.
 std::size_t length_of_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char first = byte(0);
@@ -156,7 +155,7 @@ std::optional<double> parse_number(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (end != text.data() + text.size() || text.empty())
         return {};
-    // Exporters write 1e-320 and smaller where they mean 0.
+    // Some exporters write 1e-320 and smaller for 0.
     if (error == std::errc::result_out_of_range && (text.find("e-") != text.npos || text.find("E-") != text.npos))
         return 0.0;
     if (error != std::errc() || !std::isfinite(value))

@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-// The plugins that change how light meets the one BSDF nested in them.
+// Adapters, which modify one nested BSDF.
 
 Material nested_bsdf(LoadContext& context, Properties& p) {
     const std::optional<XmlElement> nested = context.take_one_nested(p, "bsdf");
@@ -23,7 +23,7 @@ Material nested_bsdf(LoadContext& context, Properties& p) {
 Material read_twosided(LoadContext& context, Properties& p) {
     Material material = nested_bsdf(context, p);
     if (material.is_transparent())
-        p.note("'twosided' means nothing around a transparent material");
+        p.note("'twosided' has no effect on a transparent material");
     else
         material.two_sided = true;
     return material;
@@ -41,7 +41,7 @@ Texture grey_parameter(LoadContext& context, Properties& p, std::string_view nam
 
 namespace {
 
-/// What is left of light by two masks, one around the other. At most one of them can be a texture.
+/// Returns the opacity of two nested masks. If both are textures, the inner one is left out, with a note.
 Texture product(const Properties& p, const Texture& outer, const Texture& inner) {
     if (!outer.is_constant() && !inner.is_constant()) {
         p.note("the mask inside this one is left out");
@@ -56,7 +56,7 @@ Texture product(const Properties& p, const Texture& outer, const Texture& inner)
     return result;
 }
 
-/// The texture of an adapter, whatever its name.
+/// Reads the nested texture of an adapter, under any name.
 Texture nested_texture(LoadContext& context, Properties& p) {
     const std::optional<XmlElement> nested = context.take_one_nested(p, "texture");
     if (!nested)
@@ -66,9 +66,9 @@ Texture nested_texture(LoadContext& context, Properties& p) {
 
 void set_relief(const LoadContext& context, Properties& p, Material& material, Relief relief) {
     relief.softens_terminator = p.boolean("use_shadowing_function", !context.old_syntax);
-    p.ignore({"flip_invalid_normals"}); // what is above one surface and below the other is black here
+    p.ignore({"flip_invalid_normals"}); // such directions are always black in Tessera
     if (material.relief)
-        p.note("the relief inside this one is left out");
+        p.note("the bump or normal map inside this one is left out");
     material.relief = relief;
 }
 
@@ -79,7 +79,7 @@ Material read_mask(LoadContext& context, Properties& p) {
     const Texture opacity = grey_parameter(context, p, "opacity", 0.5f);
     const Rgb* constant = std::get_if<Rgb>(&opacity.kind);
     if (constant && constant->r >= 1)
-        return material; // nothing is masked
+        return material; // opaque
     material.opacity = material.opacity ? product(p, opacity, *material.opacity) : opacity;
     return material;
 }
@@ -101,19 +101,20 @@ Material without_adapters(Material material, const Properties& p) {
     if (material.opacity)
         p.note("the mask inside '" + p.type() + "' is left out");
     if (material.relief)
-        p.note("the relief inside '" + p.type() + "' is left out");
+        p.note("the bump or normal map inside '" + p.type() + "' is left out");
     material.opacity.reset();
     material.relief.reset();
     return material;
 }
 
-// The plugins that are made of several BSDFs, or of a BSDF and a layer on it.
+// Combinations of several BSDFs, or of a BSDF and a layer on it.
 
 namespace {
 
-/// Light that several parts let through must have one direction: makes all refract like the first that does.
-/// @param first that one; null as long as none was met
-/// @return whether anything had to be changed
+/// Makes all dielectric components refract like the first one, because transmitted light must have a single
+/// direction.
+/// @param first the first dielectric; empty until one is met
+/// @return whether a component had to be changed
 bool share_refraction(Material& material, std::optional<DielectricMaterial>& first) {
     if (auto* dielectric = std::get_if<DielectricMaterial>(&material.kind)) {
         if (!first)
@@ -133,7 +134,8 @@ bool share_refraction(Material& material, std::optional<DielectricMaterial>& fir
     return changed;
 }
 
-/// Leaves out what goes straight through layers, beside which light that is bent would have a second direction.
+/// Removes the unscattered transmission of `hk` layers. Beside a refracting component, it would be a second
+/// direction.
 /// @return whether there was any
 bool leave_out_straight_light(Material& material) {
     if (auto* layer = std::get_if<MediumLayerMaterial>(&material.kind))
@@ -148,21 +150,21 @@ bool leave_out_straight_light(Material& material) {
     return changed;
 }
 
-constexpr int most_parts = 256; // each is evaluated at every scattering
+constexpr int max_parts = 256; // each is evaluated at every scattering event; not tuned
 
-/// How many BSDFs a material is made of, however they are nested; not many more than most_parts are counted.
+/// Counts the BSDFs that a material contains, at any depth. Counting stops soon after max_parts.
 int count_parts(const Material& material) {
     if (const auto* coated = std::get_if<CoatedMaterial>(&material.kind))
         return 1 + count_parts(*coated->base);
     const auto* mixture = std::get_if<MixtureMaterial>(&material.kind);
     int count = mixture ? 0 : 1;
-    for (std::size_t i = 0; mixture && i < mixture->parts.size() && count <= most_parts; ++i)
+    for (std::size_t i = 0; mixture && i < mixture->parts.size() && count <= max_parts; ++i)
         count += count_parts(*mixture->parts[i]);
     return count;
 }
 
-/// The BSDFs nested in a mixture, without weights. Throws LoadError for one of too many parts: by references, a
-/// few lines make millions.
+/// Returns a mixture of the nested BSDFs, without weights. Throws LoadError for too many: by references, a few
+/// lines can make millions.
 Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlElement>& nested) {
     MixtureMaterial mixture;
     std::optional<DielectricMaterial> first;
@@ -176,10 +178,10 @@ Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlEl
     }
     Material material{{}, mixture};
     if (first && !first->thin && leave_out_straight_light(material))
-        p.note("the light that 'hk' lets through unscattered is left out beside that bent by glass");
-    if (count_parts(material) > most_parts)
-        p.element().fail("'" + p.type() + "' is made of more than " + std::to_string(most_parts) +
-                         " BSDFs, those of its parts and theirs counted each time");
+        p.note("the unscattered transmission of 'hk' is left out, because another <bsdf> refracts");
+    if (count_parts(material) > max_parts)
+        p.element().fail("'" + p.type() + "' is made of more than " + std::to_string(max_parts) +
+                         " BSDFs, counting nested ones at each use");
     const bool all_two_sided = two_sided == nested.size();
     if (two_sided > 0 && !all_two_sided)
         p.note("'twosided' around some of the materials in '" + p.type() + "' is left out");
@@ -187,7 +189,7 @@ Material mixture_of(LoadContext& context, Properties& p, const std::vector<XmlEl
     return material;
 }
 
-/// "0.3, 0.2": one weight for each of `count` materials, at most 1 together.
+/// Reads weights such as "0.3, 0.2", one for each of `count` materials. Scales them to a sum of at most 1.
 std::vector<float> weights_parameter(Properties& p, std::size_t count) {
     const auto element = p.take("weights");
     if (!element)
@@ -206,7 +208,7 @@ std::vector<float> weights_parameter(Properties& p, std::size_t count) {
     if (!(sum > 0))
         element->fail("one of the 'weights' must be above 0", "value");
     if (sum > 1 + 1e-4f)
-        p.note(*element, "'weights' are above 1 together and scaled down to it");
+        p.note(*element, "'weights' add up to more than 1 and are scaled down to 1");
     if (sum > 1)
         for (float& w : *weights)
             w /= sum;
@@ -256,7 +258,7 @@ Material read_coating(LoadContext& context, Properties& p) {
     }
     const bool two_sided = std::exchange(base.two_sided, false);
     if (!two_sided)
-        p.note("the back of the coating is black, as that of its base is");
+        p.note("the back of the coating is black, like that of its base");
     coated.base = std::make_shared<const Material>(std::move(base));
     return {{}, coated, two_sided};
 }

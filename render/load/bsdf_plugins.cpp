@@ -11,7 +11,7 @@ namespace tessera {
 
 namespace {
 
-// A plugin adds its row here, its reader, and its alternative to Material::kind where it needs one.
+// A new plugin adds its row here, its reader, and an alternative of Material::kind if it needs one.
 constexpr Plugin<Material (*)(LoadContext&, Properties&)> plugins[] = {
     {"null", read_null},
     {"diffuse", read_diffuse},
@@ -52,7 +52,7 @@ Material read_bsdf(LoadContext& context, const XmlElement& element) {
         material = plugin->read(context, properties);
         properties.report_unused();
     } else {
-        properties.note("the bsdf '" + properties.type() + "' is not known; diffuse magenta stands for it");
+        properties.note("the bsdf '" + properties.type() + "' is not known; diffuse magenta is used instead");
     }
     material.name = properties.name();
     return context.bsdfs.emplace(element.key(), material).first->second;
@@ -68,13 +68,13 @@ int material_of(LoadContext& context, const XmlElement& element) {
     return index;
 }
 
-int default_material(LoadContext& context, bool gives_light) {
-    static const char none[2] = {}; // keys that no element has
-    const void* const key = &none[gives_light ? 1 : 0];
+int default_material(LoadContext& context, bool emits_light) {
+    static const char none[2] = {}; // addresses that no element has as its key
+    const void* const key = &none[emits_light ? 1 : 0];
     const auto [entry, is_new] =
         context.materials.try_emplace(key, static_cast<int>(context.scene.materials.size()));
     if (is_new)
-        context.scene.materials.push_back({"default", DiffuseMaterial{Rgb(gives_light ? 0.0f : 0.5f)}, false});
+        context.scene.materials.push_back({"default", DiffuseMaterial{Rgb(emits_light ? 0.0f : 0.5f)}, false});
     return entry->second;
 }
 
@@ -97,7 +97,7 @@ float index_parameter(Properties& p, std::string_view name, std::string_view fal
 
 ComplexIndex metal_parameter(const LoadContext& context, Properties& p) {
     const bool given = p.has("eta") || p.has("k");
-    const std::string fallback = context.old_syntax ? "Cu" : "none"; // for what is not given
+    const std::string fallback = context.old_syntax ? "Cu" : "none"; // Mitsuba's default
     const std::string material = p.text("material", fallback);
     auto index = metal_index(material);
     if (!index) {
@@ -148,12 +148,12 @@ Texture isotropic_alpha_parameter(LoadContext& context, Properties& p) {
 
 MicrofacetDistribution distribution_parameter(Properties& p) {
     std::string name = p.text("distribution", "beckmann");
-    for (char& c : name) // either case of letters will do
+    for (char& c : name)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (name == "ggx")
         return MicrofacetDistribution::ggx;
     if (name == "phong" || name == "as")
-        // Both have cosines to a power, which follows from alpha so that they look alike [Walter 2007, 5.2].
+        // In both, the exponent follows from alpha so that the shapes are similar [Walter 2007, 5.2].
         p.note(*p.take("distribution"),
                "the distribution '" + name + "' is replaced by 'beckmann' of the same 'alpha'");
     else if (name != "beckmann")

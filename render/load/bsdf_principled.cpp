@@ -8,11 +8,11 @@
 
 namespace tessera {
 
-// The plugins that exporters write for Disney's principled BSDF.
+// Disney's principled BSDF [Burley 2012, 2015].
 
 namespace {
 
-/// What both have.
+/// Reads the parameters that both plugins have.
 template <class M>
 void read_common(LoadContext& context, Properties& p, M& m) {
     m.base_color = reflectance_parameter(context, p, "base_color", Rgb(0.5f));
@@ -28,7 +28,7 @@ void read_common(LoadContext& context, Properties& p, M& m) {
               "diffuse_transmittance_sampling_rate"});
 }
 
-/// The index of refraction, by itself or as "specular", which is 0.5 at 1.5.
+/// Reads the index of refraction, given directly or by "specular" (0.5 means 1.5).
 float principled_index(Properties& p, bool transmits) {
     if (p.has("eta") && p.has("specular"))
         p.take("specular")->fail("'principled' takes 'eta' or 'specular', not both");
@@ -36,7 +36,7 @@ float principled_index(Properties& p, bool transmits) {
         const float eta = p.number("eta", 1.5f);
         if (!(eta > 0))
             p.take("eta")->fail("an index of refraction must be above 0", "value");
-        return transmits && eta == 1 ? 1.001f : eta; // by no step no light is bent
+        return transmits && eta == 1 ? 1.001f : eta; // an index of 1 would not refract
     }
     const float specular = p.number("specular", 0.5f);
     if (!(specular >= 0 && specular < 12.5f))
@@ -64,7 +64,8 @@ Material read_thin_principled(LoadContext& context, Properties& p) {
     if (const Rgb* eta = std::get_if<Rgb>(&m.eta.kind); eta && !(eta->r > 0))
         p.take("eta")->fail("an index of refraction must be above 0", "value");
     m.diff_trans = texture_parameter(context, p, "diff_trans", Rgb(0));
-    if (const Rgb* share = std::get_if<Rgb>(&m.diff_trans.kind); share && !(share->r >= 0 && share->r <= 2))
+    if (const Rgb* constant = std::get_if<Rgb>(&m.diff_trans.kind);
+        constant && !(constant->r >= 0 && constant->r <= 2))
         p.take("diff_trans")->fail("'diff_trans' must be from 0 to 2", "value");
     return {{}, m};
 }

@@ -5,8 +5,7 @@
 
 namespace tessera {
 
-// There is one reader for each plugin <bsdf type="...">. They name nothing: that is left to read_bsdf(). All throw
-// LoadError.
+// Readers of the plugins <bsdf type="...">. They leave Material::name to read_bsdf(). All throw LoadError.
 Material read_null(LoadContext& context, Properties& p);
 Material read_diffuse(LoadContext& context, Properties& p);
 Material read_rough_diffuse(LoadContext& context, Properties& p);
@@ -36,32 +35,32 @@ Material read_mixture(LoadContext& context, Properties& p);
 Material read_coating(LoadContext& context, Properties& p);
 Material read_rough_coating(LoadContext& context, Properties& p);
 
-/// The one BSDF nested in an adapter such as `twosided`. Throws LoadError where there is none.
+/// Reads the BSDF nested in an adapter such as `twosided`. Throws LoadError if there is none.
 Material nested_bsdf(LoadContext& context, Properties& p);
 
-/// A share that does not depend on the colour of light: the luminance of a coloured constant, with a note.
+/// Reads a fraction that does not depend on wavelength. A coloured constant becomes its luminance, with a note.
 Texture grey_parameter(LoadContext& context, Properties& p, std::string_view name, float fallback);
 
-/// A material as part of another: its opacity and its relief are dropped, with a note.
+/// Returns a material as a component of another: without opacity and relief, with a note for each.
 Material without_adapters(Material material, const Properties& p);
 
-/// An index of refraction: a number, or the name of a material. Throws LoadError for an unknown name.
+/// Reads an index of refraction: a number, or the name of a material. Throws LoadError for an unknown name.
 float index_parameter(Properties& p, std::string_view name, std::string_view fallback);
 
-/// The index of the metal ("material", or "eta" and "k"), relative to what is around it ("ext_eta").
+/// Reads a conductor's index ("material", or "eta" and "k"), relative to the outside ("ext_eta").
 ComplexIndex metal_parameter(const LoadContext& context, Properties& p);
 
-/// The roughness of microfacets: "alpha", or "alpha_u" and "alpha_v". Throws LoadError below 0.
+/// Reads the roughness of microfacets: "alpha", or "alpha_u" and "alpha_v". Throws LoadError if it is negative.
 struct Roughness {
     Texture alpha;
-    std::optional<Texture> alpha_v; ///< nothing: as alpha
+    std::optional<Texture> alpha_v; ///< empty: isotropic
 };
 Roughness alpha_parameter(LoadContext& context, Properties& p);
 
-/// The same for what is isotropic here: other roughness is averaged, with a note.
+/// Reads the roughness for a BSDF that is isotropic in Tessera. Anisotropic roughness is averaged, with a note.
 Texture isotropic_alpha_parameter(LoadContext& context, Properties& p);
 
-/// "distribution" of microfacets; unknown ones are replaced, with a note.
+/// Reads the distribution of microfacets. Unknown ones are replaced, with a note.
 MicrofacetDistribution distribution_parameter(Properties& p);
 
 } // namespace tessera

@@ -10,16 +10,16 @@
 
 namespace tessera {
 
-// The plugins that say themselves how a surface scatters.
+// BSDFs that contain no other BSDF.
 
 namespace {
 
-/// 0.6 takes both names.
+/// Returns the name of the reflectance parameter. Mitsuba 0.6 accepts both.
 const char* diffuse_name(const Properties& p) {
     return p.has("diffuse_reflectance") && !p.has("reflectance") ? "diffuse_reflectance" : "reflectance";
 }
 
-ConductorMaterial smooth_part(LoadContext& context, Properties& p) {
+ConductorMaterial smooth_conductor(LoadContext& context, Properties& p) {
     ConductorMaterial conductor;
     const ComplexIndex index = metal_parameter(context, p);
     conductor.eta = index.eta;
@@ -28,7 +28,8 @@ ConductorMaterial smooth_part(LoadContext& context, Properties& p) {
     return conductor;
 }
 
-/// What plastic and roughplastic share, a coating of roughness `alpha`.
+/// Reads a plastic whose coating has the given microfacets. With `scatters_once`, light that the coating
+/// reflects back to the base is lost.
 Material plastic_of(LoadContext& context, Properties& p, Microfacets facets, bool scatters_once = false) {
     PlasticMaterial plastic;
     plastic.scatters_once = scatters_once;
@@ -50,8 +51,8 @@ Material plastic_of(LoadContext& context, Properties& p, Microfacets facets, boo
 
 } // namespace
 
-/// Nothing at all: rays go through. (It stands around media, which are not rendered, and the note for these says
-/// so.)
+/// Returns a material of opacity 0. Scenes use it for boundaries of media, which are not rendered and have a
+/// note of their own.
 Material read_null(LoadContext&, Properties&) {
     return {{}, DiffuseMaterial{Rgb(0)}, true, Texture(Rgb(0))};
 }
@@ -99,11 +100,11 @@ Material read_thin_dielectric(LoadContext& context, Properties& p) {
 }
 
 Material read_conductor(LoadContext& context, Properties& p) {
-    return {{}, smooth_part(context, p)};
+    return {{}, smooth_conductor(context, p)};
 }
 
 Material read_rough_conductor(LoadContext& context, Properties& p) {
-    ConductorMaterial conductor = smooth_part(context, p);
+    ConductorMaterial conductor = smooth_conductor(context, p);
     auto [alpha, alpha_v] = alpha_parameter(context, p);
     conductor.alpha = std::move(alpha);
     conductor.alpha_v = std::move(alpha_v);
@@ -118,7 +119,7 @@ Material read_plastic(LoadContext& context, Properties& p) {
 
 namespace {
 
-/// The facets of a plastic, of one roughness.
+/// Reads the microfacets of a plastic, which have constant isotropic roughness.
 Microfacets facets_parameter(LoadContext& context, Properties& p) {
     const Texture alpha = isotropic_alpha_parameter(context, p);
     if (!alpha.is_constant())
@@ -141,13 +142,13 @@ Material read_polarizing_plastic(LoadContext& context, Properties& p) {
 
 namespace {
 
-/// Says so where a lobe and a diffuse part together would make light.
+/// Notes a diffuse component and a specular lobe that together reflect more than all light.
 void note_if_scaled(const Properties& p, const Texture& diffuse, const Texture& specular) {
     if (!diffuse.is_constant() || !specular.is_constant())
         return;
     const Rgb sum = std::get<Rgb>(diffuse.kind) + std::get<Rgb>(specular.kind);
     if (std::max({sum.r, sum.g, sum.b}) > 1)
-        p.note("the two reflectances are above 1 together and scaled down to it");
+        p.note("the two reflectances add up to more than 1 and are scaled down to 1");
 }
 
 } // namespace

@@ -12,11 +12,11 @@
 
 namespace tessera {
 
-// The plugins of Mitsuba 0.6 that let light through without bending it.
+// BSDFs of Mitsuba 0.6 that transmit light without refraction.
 
 namespace {
 
-/// Scattering and absorption per millimetre [Jensen 2001, fig. 5].
+/// Scattering and absorption coefficients in 1/mm [Jensen 2001, fig. 5].
 struct Medium {
     std::string_view name;
     Rgb sigma_s, sigma_a;
@@ -40,16 +40,16 @@ Medium medium_parameter(Properties& p) {
     std::string name = p.text("material", "skin1");
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto is_named = [&](std::string_view wanted) {
+    const auto find_named = [&](std::string_view wanted) {
         return std::find_if(std::begin(media), std::end(media), [&](const Medium& m) { return m.name == wanted; });
     };
-    if (const auto known = is_named(name); known != std::end(media))
+    if (const auto known = find_named(name); known != std::end(media))
         return *known;
     p.note(*p.take("material"), "the medium '" + name + "' is not known and replaced by 'skin1'");
-    return *is_named("skin1");
+    return *find_named("skin1");
 }
 
-/// A coefficient, at least 0.
+/// Reads a coefficient. Throws LoadError if it is negative.
 Texture coefficient(LoadContext& context, Properties& p, std::string_view name, Rgb fallback) {
     const Texture texture = texture_parameter(context, p, name, fallback);
     const Rgb* sigma = std::get_if<Rgb>(&texture.kind);
@@ -58,7 +58,7 @@ Texture coefficient(LoadContext& context, Properties& p, std::string_view name, 
     return texture;
 }
 
-/// The mean cosine of the nested phase function.
+/// Returns the mean cosine of the nested phase function; 0 without one.
 float mean_cosine(LoadContext& context, Properties& p) {
     const std::optional<XmlElement> nested = context.take_one_nested(p, "phase");
     if (!nested)

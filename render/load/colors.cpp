@@ -15,7 +15,7 @@ Rgb srgb_to_linear(Rgb c) {
     return {tessera::srgb_to_linear(c.r), tessera::srgb_to_linear(c.g), tessera::srgb_to_linear(c.b)};
 }
 
-/// "#rrggbb", the bytes over 255, as in Mitsuba 0.6; Mitsuba 3 has no such colours.
+/// Reads "#rrggbb" as bytes over 255, as Mitsuba 0.6 does. Mitsuba 3 has no such colours.
 Rgb hexadecimal(const XmlElement& element, const std::string& text) {
     unsigned value = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
@@ -24,7 +24,7 @@ Rgb hexadecimal(const XmlElement& element, const std::string& text) {
     return Rgb(value >> 16, value >> 8 & 0xff, value & 0xff) / 255.0f;
 }
 
-/// A colour given as one number or three, or as "#rrggbb".
+/// Reads a colour given as one number, as three, or as "#rrggbb".
 Rgb triple(const XmlElement& element) {
     if (element.tag() == "float" || element.tag() == "integer")
         return Rgb(element.number("value"));
@@ -49,7 +49,7 @@ Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& sa
     return color;
 }
 
-/// "400:0.2, 500:0.3"
+/// Reads a spectrum such as "400:0.2, 500:0.3" (nm:value).
 Rgb color_of_list(const XmlElement& element, std::string text, SpectrumOf what) {
     std::replace(text.begin(), text.end(), ':', ' ');
     const auto values = parse_numbers(text);
@@ -70,7 +70,7 @@ Rgb color_of_black_body(const XmlElement& element, float kelvin, float scale) {
     return color;
 }
 
-/// <blackbody temperature="5000K" scale="0.1"/> of 0.6.
+/// Reads <blackbody temperature="5000K" scale="0.1"/> of Mitsuba 0.6.
 Rgb black_body(const XmlElement& element) {
     std::string text = element.required("temperature");
     if (text.ends_with('K') || text.ends_with('k'))
@@ -82,7 +82,7 @@ Rgb black_body(const XmlElement& element) {
                                element.has("scale") ? element.number("scale") : 1);
 }
 
-/// wavelengths="400, 500" (or lambda_min and lambda_max) and values="0.2, 0.3" of Mitsuba 3.
+/// Reads `values` at `wavelengths`, or evenly from `wavelength_min` to `wavelength_max` (Mitsuba 3; nm).
 Rgb color_of_arrays(Properties& p, SpectrumOf what) {
     const auto values = parse_numbers(p.text("values", ""));
     auto wavelengths = parse_numbers(p.text("wavelengths", ""));
@@ -101,14 +101,14 @@ Rgb color_of_arrays(Properties& p, SpectrumOf what) {
     return color_of_samples(p.element(), samples, what);
 }
 
-/// The colour of a plugin <spectrum type="..."> of Mitsuba 3.
+/// Reads a plugin <spectrum type="..."> of Mitsuba 3.
 Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumOf what) {
     Properties p(element, notes);
     Rgb color = fallback;
     if (p.type() == "uniform") {
         color = Rgb(p.number("value", 1));
     } else if (p.type() == "rgb" || p.type() == "srgb" || p.type() == "d65") {
-        color = p.color("color", Rgb(1)) * p.number("scale", 1); // d65: the white of sRGB
+        color = p.color("color", Rgb(1)) * p.number("scale", 1); // D65 is the white of sRGB
     } else if (p.type() == "blackbody") {
         color = color_of_black_body(element, p.number("temperature", 5000), p.number("scale", 1));
         p.note("the spectrum is replaced by its linear sRGB colour");
@@ -151,7 +151,7 @@ Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& n
         return color_of_list(element, text, what);
     }
     const Rgb value = triple(element);
-    // One number is the same at all wavelengths. Mitsuba 0.6 takes it for grey all the same.
+    // One number is a constant spectrum. Mitsuba 0.6 treats it as grey even for emission.
     if (element.tag() == "spectrum" && what == SpectrumOf::emission && !is_of_version_0(element))
         return value * rgb_of_spectrum({{360, 1}, {830, 1}}, what);
     return element.tag() == "srgb" ? srgb_to_linear(value) : value;

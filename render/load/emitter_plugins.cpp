@@ -16,25 +16,25 @@ namespace tessera {
 
 namespace {
 
-/// A quantity of light that was read from the parameter of that name. Too much of it is cut, with a note; throws
-/// LoadError for less than none.
+/// Checks an emitted quantity that was read from the parameter of that name. Clamps it to `brightest`, with a
+/// note. Throws LoadError if it is negative.
 Rgb checked_light(Properties& p, std::string_view name, Rgb color) {
     if (color.r < 0 || color.g < 0 || color.b < 0)
         p.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
-    const Rgb cut = glm::min(color, Rgb(brightest));
-    if (cut != color)
+    const Rgb clamped = glm::min(color, Rgb(brightest));
+    if (clamped != color)
         p.note(*p.take(name),
-               "'" + std::string(name) + "' is cut at 1e15: brighter pictures cannot be reconstructed");
-    return cut;
+               "'" + std::string(name) + "' is clamped to 1e15: brighter pictures cannot be reconstructed");
+    return clamped;
 }
 
-/// A quantity of light, such as intensity.
+/// Reads an emitted quantity such as "intensity".
 Rgb light_parameter(Properties& p, std::string_view name) {
-    p.ignore({"sampling_weight"}); // how often they are chosen is learnt
+    p.ignore({"sampling_weight"}); // Tessera learns the selection probabilities of lights
     return checked_light(p, name, p.color(name, Rgb(1)));
 }
 
-/// A quantity of light that varies over a surface.
+/// Reads an emitted quantity that may vary over a surface.
 Texture light_texture_parameter(LoadContext& context, Properties& p, std::string_view name) {
     Texture texture = texture_parameter(context, p, name, Rgb(1));
     if (Rgb* constant = std::get_if<Rgb>(&texture.kind))
@@ -61,15 +61,15 @@ void read_point(LoadContext& context, Properties& p) {
     context.scene.point_lights.push_back(light);
 }
 
-/// The texture of a spot, as wide as its cone; its u and v run against those of a camera.
+/// Reads the texture of a spot, which spans the width of its cone. Its u and v run opposite to a camera's.
 std::optional<Slide> read_slide(LoadContext& context, Properties& p, float cutoff) {
     if (!(cutoff < 90)) {
-        p.note(*p.take("texture"), "the texture is not used: a cone of 90 degrees and more has no picture");
+        p.note(*p.take("texture"), "the texture is not used: it needs a 'cutoff_angle' below 90 degrees");
         return {};
     }
-    const glm::mat4 turned = glm::scale(glm::mat4(p.rotation("to_world")), {-1, -1, 1});
+    const glm::mat4 mirrored = glm::scale(glm::mat4(p.rotation("to_world")), {-1, -1, 1});
     return Slide{
-        texture_parameter(context, p, "texture", Rgb(1)), {turned, 2 * cutoff, FovAxis::x}, Slide::Kind::share};
+        texture_parameter(context, p, "texture", Rgb(1)), {mirrored, 2 * cutoff, FovAxis::x}, Slide::Kind::share};
 }
 
 void read_spot(LoadContext& context, Properties& p) {
@@ -89,7 +89,7 @@ void read_spot(LoadContext& context, Properties& p) {
     context.scene.point_lights.push_back(light);
 }
 
-/// Mitsuba 3
+/// Reads a projector of Mitsuba 3.
 void read_projector(LoadContext& context, Properties& p) {
     Slide slide;
     slide.kind = Slide::Kind::irradiance;
@@ -111,7 +111,7 @@ void read_directional(LoadContext& context, Properties& p) {
     context.scene.directional_lights.push_back(light);
 }
 
-/// There is one map; a second one is left out.
+/// Sets the environment map. A second one is left out, with a note.
 void set_map(LoadContext& context, Properties& p, EnvironmentMap map) {
     if (context.scene.environment.map)
         p.note("the scene has another environment already; this one gives no light");
@@ -176,9 +176,8 @@ void add_scene_emitter(LoadContext& context, const XmlElement& element) {
         plugin->read(context, properties);
         properties.report_unused();
     } else if (find_plugin(plugins_in_shapes, properties.type())) {
-        if (!element.has("id") || !context.referred.contains(element.attribute("id"))) // else it is a shape's
-            properties.note("the emitter '" + properties.type() +
-                            "' stands outside of a shape; it gives no light");
+        if (!element.has("id") || !context.referred.contains(element.attribute("id"))) // a shape may refer to it
+            properties.note("the emitter '" + properties.type() + "' is outside of a shape; it gives no light");
     } else {
         properties.note("the emitter '" + properties.type() + "' is not known; it gives no light");
     }

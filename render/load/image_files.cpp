@@ -13,7 +13,7 @@ namespace tessera {
 
 namespace {
 
-/// Dark where the file holds what is no light, so that it cannot spread, and nowhere too bright.
+/// Replaces infinite and NaN channels by 0, so that they cannot spread, and clamps the others to `brightest`.
 Rgb bounded(Rgb c) {
     for (int i = 0; i < 3; ++i)
         c[i] = std::isfinite(c[i]) ? std::min(c[i], brightest) : 0.0f;
@@ -37,22 +37,22 @@ Bitmap bitmap_of(ByteImage image, bool srgb) {
 } // namespace
 
 Bitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
-                    const std::function<bool()>& wanted) {
+                    const std::function<bool()>& keep_reading) {
     if (is_exr(encoded))
-        return bitmap_of(parse_exr_picture(encoded, [&](float) { return wanted(); }));
+        return bitmap_of(parse_exr_picture(encoded, [&](float) { return keep_reading(); }));
     if (is_radiance(encoded))
-        return bitmap_of(parse_radiance(encoded, wanted));
+        return bitmap_of(parse_radiance(encoded, keep_reading));
     if (is_png(encoded))
-        return bitmap_of(parse_png(encoded, wanted), srgb);
+        return bitmap_of(parse_png(encoded, keep_reading), srgb);
     if (is_jpeg(encoded))
-        return bitmap_of(parse_jpeg(encoded, wanted), srgb);
-    if (is_bmp(encoded) || extension == ".tga") // which has no mark: there the name must say it
-        return bitmap_of(parse_bmp_or_tga(encoded, wanted), srgb);
-    throw std::runtime_error("it is no OpenEXR, Radiance, PNG, JPEG, BMP or TGA picture");
+        return bitmap_of(parse_jpeg(encoded, keep_reading), srgb);
+    if (is_bmp(encoded) || extension == ".tga") // TGA has no signature
+        return bitmap_of(parse_bmp_or_tga(encoded, keep_reading), srgb);
+    throw std::runtime_error("it is not an OpenEXR, Radiance, PNG, JPEG, BMP or TGA picture");
 }
 
-Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& wanted) {
-    return parse_bitmap(read_bytes(file), extension_of(file), srgb, wanted);
+Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading) {
+    return parse_bitmap(read_bytes(file), extension_of(file), srgb, keep_reading);
 }
 
 } // namespace tessera

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A path that is there and differs at most in the case of letters; empty: there is none.
-fs::path in_any_case(const fs::path& path) {
+/// Returns an existing path that differs at most in case; empty: there is none.
+fs::path find_ignoring_case(const fs::path& path) {
     std::error_code error;
     if (fs::exists(path, error))
         return path;
@@ -43,7 +43,7 @@ std::vector<fs::path> FileSearch::candidates_for(const XmlElement& element, cons
     if (!scene_ || !scene_->folder() || !element.document().folder())
         element.fail("a scene in memory has no files beside it, such as '" + name + "'", attribute);
     if (name.find('\0') != std::string::npos || name.empty())
-        element.fail("'" + name + "' is no name of a file", attribute);
+        element.fail("'" + name + "' is not a file name", attribute);
     std::vector<fs::path> candidates{*element.document().folder() / name};
     for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
         candidates.push_back(*folder / name);
@@ -58,7 +58,7 @@ std::optional<fs::path> FileSearch::find_if_there(const XmlElement& element, con
         if (fs::exists(candidate, error))
             return candidate;
     for (const fs::path& candidate : candidates)
-        if (fs::path found = in_any_case(candidate); !found.empty())
+        if (fs::path found = find_ignoring_case(candidate); !found.empty())
             return found;
     return {};
 }
@@ -96,13 +96,13 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
         std::optional<std::string> error;
     };
     std::vector<Outcome> outcomes(jobs_.size());
-    const std::function<bool()> wanted = [&] { return !progress.given_up(); };
+    const std::function<bool()> keep_reading = [&] { return !progress.given_up(); };
     parallel_for(static_cast<int>(jobs_.size()), [&](int i) {
         if (progress.given_up())
             return;
         const auto index = static_cast<std::size_t>(i);
         try {
-            outcomes[index].note = jobs_[index].read(wanted);
+            outcomes[index].note = jobs_[index].read(keep_reading);
         } catch (const std::exception& e) {
             outcomes[index].error = message_of(e);
         }
@@ -120,7 +120,7 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
 }
 
 namespace {
-constexpr int deepest_nesting = 64;
+constexpr int max_nesting = 64;
 }
 
 XmlElement LoadContext::resolve(const XmlElement& element) const {
@@ -151,19 +151,20 @@ std::optional<XmlElement> LoadContext::take_one_nested(Properties& properties, s
     return nested.empty() ? std::nullopt : std::optional(nested[0]);
 }
 
-std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, std::string_view instead) {
+std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, std::string_view consequence) {
     const auto parameter = properties.take("filename");
     if (!parameter)
         properties.element().fail("'" + properties.type() + "' needs a 'filename'");
     if (strict || files.find_if_there(*parameter, "value"))
         return File{*parameter, files.find(*parameter, "value")};
     notes.push_back({parameter->position("value"),
-                     "there is no file '" + parameter->required("value") + "': " + std::string(instead), true});
+                     "there is no file '" + parameter->required("value") + "': " + std::string(consequence),
+                     true});
     return {};
 }
 
 NestingGuard::NestingGuard(LoadContext& context, const XmlElement& element) : context_(context) {
-    if (context.depth >= deepest_nesting)
+    if (context.depth >= max_nesting)
         element.fail("nested too deep: is this a circle of references?");
     ++context.depth;
 }

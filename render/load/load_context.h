@@ -19,23 +19,22 @@
 
 namespace tessera {
 
-/// Where the files that a scene names are looked for: beside the file that names them, then in the folders that
-/// the scene adds (<path value="..."/>; the latest first), then beside the scene itself. Files outside of these
-/// folders may be named, too ("../textures/wood.png", "/models/chair.ply"): scenes share them that way, and they
-/// are only read.
+/// Finds the files that a scene names. It searches the folder of the naming document, then the folders of
+/// <path> elements (latest first), then the folder of the scene. Names may lead outside these folders
+/// ("../textures/wood.png", "/models/chair.ply"), because scenes share files that way, and files are only read.
 class FileSearch {
 public:
-    /// `scene` is where files are named; null: a scene in memory, which has no files.
+    /// `scene` is the outermost document; null or without a folder: no files can be found.
     explicit FileSearch(const XmlDocument* scene = nullptr) : scene_(scene) {}
 
-    /// The path to the file that an element's attribute names; where there is none of that name, to one that is
-    /// called so but for the case of letters, as on other systems. Throws LoadError when there is none.
+    /// Returns the path of the regular file that an attribute names. If no candidate exists, the search ignores
+    /// case, because scenes made on other systems rely on that. Throws LoadError if there is none.
     std::filesystem::path find(const XmlElement& element, const char* attribute) const;
-    /// The file or folder of that name, found likewise; empty: there is none. Throws LoadError for what is no
-    /// name.
+    /// Returns the path of a file or folder, searched in the same way; empty: not found. Throws LoadError for
+    /// an invalid name and for a scene in memory.
     std::optional<std::filesystem::path> find_if_there(const XmlElement& element, const char* attribute) const;
 
-    /// Adds the folder that a <path> names. Throws LoadError when there is none.
+    /// Adds the folder that a <path> names. Throws LoadError if there is none.
     void add_folder(const XmlElement& path);
 
 private:
@@ -46,19 +45,19 @@ private:
     std::vector<std::filesystem::path> folders_;
 };
 
-/// The files that a scene names, read after the scene itself and all at once.
+/// Jobs that read the files named by a scene. They run in parallel once the XML is read.
 class FileJobs {
 public:
-    /// Reads a file and returns a note, or nothing. Ends with an exception soon after `wanted`, asked now and
-    /// then, is false.
-    using Read = std::function<std::string(const std::function<bool()>& wanted)>;
+    /// Reads a file and returns the text of a note, or nothing. Polls `keep_reading`, and throws soon after it
+    /// returns false.
+    using Read = std::function<std::string(const std::function<bool()>& keep_reading)>;
 
-    /// `read` runs later, on any thread, once. `where` is the parameter that names the file: messages point at its
-    /// value.
+    /// Adds a job, which runs once on any thread. `where` is the parameter whose value is the file name;
+    /// messages point at it.
     void add(const XmlElement& where, Read read);
 
-    /// Runs all jobs. Throws LoadError for the first in order of the file that failed, std::runtime_error if the
-    /// scene is given up on the way.
+    /// Runs all jobs. Throws LoadError for the first failed job in file order, and std::runtime_error if
+    /// loading is given up.
     void run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes, LoadProgress& progress) const;
 
 private:
@@ -69,17 +68,18 @@ private:
     std::vector<Job> jobs_;
 };
 
-/// What the readers of plugins share while one scene is loaded.
+/// State shared by the plugin readers while one scene is loaded.
 struct LoadContext {
     SceneDescription scene;
     std::vector<LoadNote> notes;
     FileJobs jobs;
 
-    bool old_syntax = false; ///< Mitsuba 0.x: some defaults differ
-    bool strict = false;     ///< a file that is not there ends the load
+    bool old_syntax = false; ///< Mitsuba 0.x, where some defaults differ
+    bool strict = false;     ///< whether a missing file throws LoadError
     FileSearch files;
 
-    /// Which shape of which list in `scene` is whose; the lists stay in place.
+    /// A shape with triangles: the list in `scene` that holds it (lists do not move), its index, and its
+    /// element.
     struct LoadedShape {
         const std::vector<Shape>* shapes;
         std::size_t index;
@@ -87,36 +87,38 @@ struct LoadContext {
     };
     std::vector<LoadedShape> shapes;
     std::map<std::string, XmlElement> ids;
-    std::set<std::string> referred;        ///< ids that some <ref> names
+    std::set<std::string> referred;        ///< ids that a <ref> names
     std::map<const void*, int> materials;  ///< by XmlElement::key(), index into scene.materials
     std::map<const void*, int> groups;     ///< by XmlElement::key(), index into scene.groups
-    std::map<const void*, Material> bsdfs; ///< by XmlElement::key(): what is referred to often is read once
-    std::map<std::pair<std::string, bool>, std::shared_ptr<Bitmap>> bitmaps; ///< by path and whether sRGB
+    std::map<const void*, Material> bsdfs; ///< by XmlElement::key()
+    std::map<std::pair<std::string, bool>, std::shared_ptr<Bitmap>>
+        bitmaps; ///< by path and whether bytes are sRGB
     std::map<std::tuple<float, MicrofacetDistribution, float>, std::shared_ptr<const Coating>>
-        coatings;  ///< by index of refraction, distribution and alpha: they take time to make
-    int depth = 0; ///< of nested plugins being read, to find circles of references
+        coatings;  ///< by eta, distribution and alpha; precomputing one is slow
+    int depth = 0; ///< number of nested plugins being read; detects circular references
 
-    /// The element that a <ref> means; any other element itself. Throws LoadError for an unknown id.
+    /// Returns the element that a <ref> names, or any other element itself. Throws LoadError for an unknown id.
     XmlElement resolve(const XmlElement& element) const;
-    /// The element whose id is this element's attribute "id". Throws LoadError.
+    /// Returns the element whose id is this element's attribute "id". Throws LoadError.
     XmlElement resolve_id(const XmlElement& element) const;
 
-    /// The nested plugins with that tag, references to such included.
+    /// Takes the nested plugins with that tag, including referenced ones.
     std::vector<XmlElement> take_nested(Properties& properties, std::string_view tag) const;
-    /// Where one has a meaning: the first of them, and a note for the second. Empty if there is none.
+    /// Takes the first nested plugin with that tag, and notes that others are not used. Empty: there is none.
     std::optional<XmlElement> take_one_nested(Properties& properties, std::string_view tag) const;
 
-    /// The file that the parameter "filename" names, and the parameter. Empty: there is none of that name, and a
-    /// note says that `instead`, "grey stands for it". Throws LoadError where nothing is named, and where it is
-    /// strict.
+    /// Takes the parameter "filename" and finds its file. If the file is missing, returns nothing and adds an
+    /// error note that ends in `consequence`, such as "grey is used instead"; with `strict`, throws LoadError.
+    /// Throws LoadError if the parameter is missing.
     struct File {
         XmlElement parameter;
         std::filesystem::path path;
     };
-    std::optional<File> take_file(Properties& properties, std::string_view instead);
+    std::optional<File> take_file(Properties& properties, std::string_view consequence);
 };
 
-/// One more level of nested plugins; throws LoadError at a depth that only a circle of references reaches.
+/// Counts one level of nested plugins while it lives. The constructor throws LoadError at a depth that only
+/// circular references reach.
 class NestingGuard {
 public:
     NestingGuard(LoadContext& context, const XmlElement& element);
@@ -128,14 +130,13 @@ private:
     LoadContext& context_;
 };
 
-/// Goes through a scene once, in order, and
-/// - replaces $name in all attributes by the value of the <default> of that name that stands before, or by that of
-///   `given`, which wins;
-/// - puts the files that <include> names in their places; they see the variables before them, and theirs are seen
-///   after them;
+/// Walks through a scene once, in document order, and
+/// - replaces $name in attributes by the value in `given`, or else by the value of the latest <default> before;
+/// - attaches the files of <include>: they see the variables defined before them, and theirs are visible after
+///   them;
 /// - adds the folders of <path> to `files`.
-/// Throws LoadError for an unknown name, a missing file, or files that include each other; notes the variables
-/// given in vain.
+/// Throws LoadError for an unknown name, a missing file, or a circle of includes. Notes the variables in
+/// `given` that the scene does not use.
 void expand_scene(XmlDocument& document, const SceneVariables& given, FileSearch& files,
                   std::vector<LoadNote>& notes);
 

@@ -35,7 +35,7 @@ void collect_ids(LoadContext& context, const XmlDocument& document) {
         const std::string id = element.attribute("id");
         const auto [entry, is_new] = context.ids.emplace(id, element);
         if (!is_new)
-            element.fail("the id '" + id + "' is already that of the <" + std::string(entry->second.tag()) +
+            element.fail("the id '" + id + "' is already used by the <" + std::string(entry->second.tag()) +
                              "> at " + entry->second.position().to_string(),
                          "id");
     }
@@ -50,16 +50,16 @@ void read_material(LoadContext& context, const XmlElement& element) {
 
 void read_nothing(LoadContext&, const XmlElement&) {}
 
-// The elements right below <scene> that there may be many of.
+// Children of <scene> that may occur many times.
 constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> scene_elements[] = {
     {"bsdf", read_material},        {"shape", add_shape},
-    {"emitter", add_scene_emitter}, {"default", read_nothing}, // replaced in the text by now
-    {"alias", read_nothing},                                   // among the ids by now
-    {"texture", read_nothing},                                 // read where it is referred to
-    {"path", read_nothing},                                    // among the folders by now
+    {"emitter", add_scene_emitter}, {"default", read_nothing}, // expand_scene() has replaced the variables
+    {"alias", read_nothing},                                   // collect_ids() has stored it
+    {"texture", read_nothing},                                 // read by the plugin that refers to it
+    {"path", read_nothing},                                    // expand_scene() has added the folder
 };
 
-// And those of which there is one.
+// Children of <scene> of which only the first is used.
 constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> single_elements[] = {
     {"integrator", read_integrator},
     {"sensor", read_sensor},
@@ -100,12 +100,12 @@ bool has_old_syntax(const XmlElement& root, std::vector<LoadNote>& notes) {
     return *major < 2;
 }
 
-/// Orders notes by place, and drops repeated ones: what is referred to twice is read twice. Included files come
-/// after what includes them.
+/// Sorts notes by document, line and column, and drops duplicates, which occur when an element is read several
+/// times. Notes of an included file follow those of the including file.
 void order_notes(std::vector<LoadNote>& notes, const std::vector<const XmlDocument*>& documents) {
     const auto number_of = [&](const std::string& file) {
-        const auto is_it = [&](const XmlDocument* document) { return document->name() == file; };
-        return std::find_if(documents.begin(), documents.end(), is_it) - documents.begin();
+        const auto has_name = [&](const XmlDocument* document) { return document->name() == file; };
+        return std::find_if(documents.begin(), documents.end(), has_name) - documents.begin();
     };
     const auto key = [&](const LoadNote& n) {
         return std::tuple(number_of(n.where.file), n.where.line, n.where.column, std::string_view(n.text));
@@ -120,15 +120,15 @@ void order_notes(std::vector<LoadNote>& notes, const std::vector<const XmlDocume
 void note_encodings(const std::vector<const XmlDocument*>& documents, std::vector<LoadNote>& notes) {
     for (const XmlDocument* document : documents)
         if (document->was_latin1())
-            notes.push_back({{document->name(), 0, 0}, "the file is not in UTF-8 and taken for Latin-1"});
+            notes.push_back({{document->name(), 0, 0}, "the file is not UTF-8; it is read as Latin-1"});
 }
 
 LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
-                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* told,
+                 const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* reported,
                  bool strict) {
     const Stopwatch parsing;
-    LoadProgress nobodys;
-    LoadProgress& progress = told ? *told : nobodys;
+    LoadProgress unobserved;
+    LoadProgress& progress = reported ? *reported : unobserved;
     progress.begin(LoadProgress::Stage::xml);
     LoadContext context;
     context.strict = strict;

@@ -34,16 +34,16 @@ std::string snake_case(std::string_view name) {
 
 Properties::Properties(const XmlElement& plugin, std::vector<LoadNote>& notes)
     : element_(plugin), type_(plugin.required("type")), notes_(&notes) {
-    std::unordered_map<std::string, std::size_t> places; // by name: a file may give thousands
+    std::unordered_map<std::string, std::size_t> places; // by name; a file may have thousands
     for (const XmlElement& child : plugin.children()) {
-        if (child.tag() == "default" || child.tag() == "alias") // replaced in the text, among the ids
+        if (child.tag() == "default" || child.tag() == "alias") // handled by expand_scene() and collect_ids()
             continue;
         Parameter parameter{child, snake_case(child.attribute("name"))};
         const auto [place, is_new] = places.try_emplace(parameter.name, parameters_.size());
         if (is_new || parameter.name.empty()) {
             parameters_.push_back(parameter);
         } else {
-            note(child, "'" + parameter.name + "' stands here for the second time; this one counts");
+            note(child, "'" + parameter.name + "' is given twice; this value is used");
             parameters_[place->second] = parameter;
         }
     }
@@ -142,10 +142,10 @@ glm::vec3 Properties::point(std::string_view parameter, glm::vec3 fallback) {
     return read_point(*element);
 }
 
-std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& wanted) {
+std::vector<XmlElement> Properties::take_all(const std::function<bool(const XmlElement&)>& predicate) {
     std::vector<XmlElement> result;
     for (Parameter& p : parameters_) {
-        if (p.used || !wanted(p.element))
+        if (p.used || !predicate(p.element))
             continue;
         p.used = true;
         result.push_back(p.element);
@@ -171,8 +171,8 @@ void Properties::report_unused() const {
     for (const Parameter& p : parameters_) {
         if (p.used)
             continue;
-        const std::string what = p.name.empty() ? "<" + std::string(p.element.tag()) + ">" : "'" + p.name + "'";
-        note(p.element, what + " of " + std::string(element_.tag()) + " '" + type_ + "' is not used");
+        const std::string label = p.name.empty() ? "<" + std::string(p.element.tag()) + ">" : "'" + p.name + "'";
+        note(p.element, label + " of " + std::string(element_.tag()) + " '" + type_ + "' is not used");
     }
 }
 

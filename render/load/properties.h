@@ -1,4 +1,4 @@
-// The parameters of a plugin, and what their values mean: colours, transforms, spectra and indices of refraction.
+// Parameters of plugins, and their conversion: colours, spectra, transforms, indices of refraction.
 #pragma once
 
 #include "recon/image.h"
@@ -18,23 +18,23 @@
 
 namespace tessera {
 
-/// What a spectrum is one of. That of a surface is seen in the light of D65, the white of sRGB: one that is the
-/// same at all wavelengths is grey. That of a light is its own colour, as in Mitsuba 3: equal energy at all
-/// wavelengths is a little reddish.
+/// Kind of quantity that a spectrum describes. A reflectance is converted under D65, the white of sRGB, so a
+/// constant one is grey. An emission is converted without an illuminant, as in Mitsuba 3, so a constant one
+/// (equal energy) is slightly reddish.
 enum class SpectrumOf { reflectance, emission };
 
-/// A plugin's element, such as <bsdf type="...">, with its parameters. Remembers which were asked for: the others
-/// end as notes, so that nothing in a file is passed over in silence.
+/// A plugin's element, such as <bsdf type="...">, with its parameters. It records which parameters are read;
+/// report_unused() notes the others, so that everything in a file that is not understood is reported.
 ///
-/// Parameters are asked for in the spelling of Mitsuba 3; "intIOR" of 0.6 answers to "int_ior". All readers return
-/// the fallback when the parameter is absent and throw LoadError when it has another type or a bad value.
+/// Names are in Mitsuba 3's spelling; "intIOR" of 0.6 is read as "int_ior". Readers return the fallback if the
+/// parameter is missing, and throw LoadError if it has another type or an invalid value.
 class Properties {
 public:
     Properties(const XmlElement& plugin, std::vector<LoadNote>& notes);
 
     const XmlElement& element() const { return element_; }
     const std::string& type() const { return type_; }
-    /// The id, or the type where there is none.
+    /// Returns the id, or the type if there is no id.
     std::string name() const;
 
     bool has(std::string_view parameter) const;
@@ -44,23 +44,24 @@ public:
     bool boolean(std::string_view parameter, bool fallback);
     std::string text(std::string_view parameter, const std::string& fallback);
     Rgb color(std::string_view parameter, Rgb fallback);
-    SpectrumOf spectrum_of() const; ///< what spectra among the parameters are: those of an emitter are of light
+    SpectrumOf spectrum_of() const; ///< emission for emitters, reflectance for all other plugins
     glm::mat4 transform(std::string_view parameter);
-    /// The rotation in a transform; says so where there is more to it. Throws LoadError for a flat one.
+    /// Returns the rotation in a transform. Translation and scaling are dropped, shear is dropped with a note.
+    /// Throws LoadError for a singular transform.
     glm::mat3 rotation(std::string_view parameter);
     glm::vec3 point(std::string_view parameter, glm::vec3 fallback);
 
-    /// The children not asked for so far that answer `wanted`.
-    std::vector<XmlElement> take_all(const std::function<bool(const XmlElement&)>& wanted);
+    /// Takes the children that were not taken yet and fulfil `predicate`.
+    std::vector<XmlElement> take_all(const std::function<bool(const XmlElement&)>& predicate);
 
-    /// Parameters that make no difference to this program.
+    /// Takes parameters that have no effect in Tessera.
     void ignore(std::initializer_list<std::string_view> parameters);
     void ignore_all();
 
     void note(const std::string& text) const { note(element_, text); }
     void note(const XmlElement& where, const std::string& text) const;
 
-    /// A note for each parameter that nobody asked for.
+    /// Notes each parameter that was not taken.
     void report_unused() const;
 
     std::vector<LoadNote>& notes() const { return *notes_; }
@@ -68,7 +69,7 @@ public:
 private:
     struct Parameter {
         XmlElement element;
-        std::string name; // in Mitsuba 3's spelling; empty for a nested plugin or reference
+        std::string name; // in Mitsuba 3's spelling; empty for an unnamed plugin or reference
         bool used = false;
     };
 
@@ -78,51 +79,52 @@ private:
     std::vector<Parameter> parameters_;
 };
 
-/// "intIOR" -> "int_ior".
+/// Converts "intIOR" to "int_ior".
 std::string snake_case(std::string_view name);
 
-/// Whether the element is a colour: <rgb>, <srgb>, <spectrum>, <blackbody>, <color> or a <float>.
+/// Returns whether the element is a colour: <rgb>, <srgb>, <spectrum>, <blackbody>, <color> or a number.
 bool is_color(const XmlElement& element);
 
-/// A colour's linear value. A spectrum given by wavelengths or as a plugin of Mitsuba 3 becomes its linear sRGB
-/// colour, one in a file the fallback, with a note. Throws LoadError for anything else.
+/// Returns a colour in linear sRGB. A spectrum given by wavelengths or by a plugin of Mitsuba 3 is converted,
+/// with a note. A spectrum in a file becomes the fallback, with a note. Throws LoadError for anything else.
 Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes,
                SpectrumOf what = SpectrumOf::reflectance);
 
-/// The product of a <transform>'s steps (matrix, lookat, translate, rotate, scale); the first step is applied to a
-/// point first. Throws LoadError.
+/// Returns the product of a <transform>'s steps (matrix, lookat, translate, rotate, scale). The first step acts
+/// on a point first. Throws LoadError.
 glm::mat4 read_transform(const XmlElement& transform);
 
-/// The rotation (and mirroring) nearest to a transform, by Gram and Schmidt; empty: the transform is flat.
+/// Returns the rotation (or rotation and mirroring) in a transform, by Gram-Schmidt; empty: the transform is
+/// singular.
 std::optional<glm::mat3> rotation_of(const glm::mat4& transform);
 
-/// The product of a <transform>'s steps for texture coordinates (u, v, 1); a matrix may have 9 numbers instead of
-/// 16. Throws LoadError.
+/// Returns the product of a <transform>'s steps for texture coordinates (u, v, 1). A matrix may have 9 numbers
+/// instead of 16. Throws LoadError.
 glm::mat3 read_uv_transform(const XmlElement& transform);
 
-/// A <point> or <vector>: value="x y z", or attributes x, y and z, 0 where one is left out. Throws LoadError.
+/// Reads a <point> or <vector>: value="x y z", or attributes x, y and z, which default to 0. Throws LoadError.
 glm::vec3 read_point(const XmlElement& point);
 
-/// Linear sRGB of a spectrum given at increasing wavelengths (nm, value), linear between them and 0 beyond.
-/// Colours outside of the gamut are cut at 0. A single sample stands for a constant.
+/// Returns the linear sRGB colour of a spectrum, given as (nm, value) at increasing wavelengths, linear in
+/// between and 0 outside. Negative channels (out of gamut) become 0. A single sample means a constant spectrum.
 Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumOf what);
 
-/// Linear sRGB of the radiance of a black body, W / (m^2 sr nm) weighted by the CIE's matching functions, as
-/// Mitsuba has it; kelvin > 0. White is D65.
+/// Returns the linear sRGB colour of a black body's radiance, in W / (m^2 sr nm) averaged with the CIE matching
+/// functions, as in Mitsuba; kelvin > 0. Negative channels become 0.
 Rgb rgb_of_black_body(double kelvin);
 
-/// The index of refraction of a transparent material by its usual name, such as "bk7" or "water", in any case;
-/// empty: the name is not known.
+/// Returns the index of refraction of a dielectric by its usual name, such as "bk7" or "water", in any case;
+/// empty: unknown name.
 std::optional<float> refraction_index(std::string_view name);
 
-/// A metal's complex index of refraction against vacuum, for red, green and blue.
+/// A conductor's complex index of refraction against vacuum, for red, green and blue.
 struct ComplexIndex {
     Rgb eta;
     Rgb k;
 };
 
-/// The index of a metal by its chemical symbol, such as "Au", as in Mitsuba; "none" is a mirror that reflects all.
-/// Empty: the name is not known.
+/// Returns a conductor's index by the name that Mitsuba uses, such as "Au"; "none" is a perfect mirror. Empty:
+/// unknown name.
 std::optional<ComplexIndex> metal_index(std::string_view name);
 
 } // namespace tessera

@@ -11,15 +11,15 @@ namespace tessera {
 
 namespace {
 
-constexpr std::size_t deepest_include = 15; // as in Mitsuba
-constexpr int most_includes = 10000;
-constexpr std::size_t longest_value = 1 << 20; // bytes; variables made of variables grow fast
+constexpr std::size_t max_include_depth = 15;     // as in Mitsuba
+constexpr int max_includes = 10000;               // not tuned
+constexpr std::size_t max_value_length = 1 << 20; // bytes; nested variables grow exponentially
 
 bool is_name_character(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-/// The variables known so far in the walk through a scene.
+/// The variables defined so far in the walk through a scene.
 class Variables {
 public:
     explicit Variables(const SceneVariables& given) : given_(given), known_(given) {}
@@ -46,7 +46,7 @@ private:
         while (true) {
             const std::size_t dollar = std::min(value.find('$'), value.size());
             result += value.substr(0, dollar);
-            if (result.size() > longest_value)
+            if (result.size() > max_value_length)
                 element.fail("the variables make a value of more than a million characters", attribute);
             if (dollar == value.size())
                 return result;
@@ -58,8 +58,8 @@ private:
         }
     }
 
-    /// The name that a "$" stands before, as in Mitsuba, where $spp_high means "$spp" followed by "_high" if there
-    /// is only spp.
+    /// Returns the longest defined name at the start of the text after a "$". As in Mitsuba, $spp_high means
+    /// "$spp" followed by "_high" if only spp is defined.
     std::string longest_known_name(std::string_view text, const XmlElement& element, const char* attribute) const {
         const auto end = std::find_if_not(text.begin(), text.end(), is_name_character);
         const std::string whole(text.begin(), end);
@@ -75,7 +75,7 @@ private:
     std::set<std::string> used_;
 };
 
-/// Walks through a document, and through those that it includes.
+/// Expands a document and, recursively, the documents that it includes.
 class Expansion {
 public:
     Expansion(Variables& variables, FileSearch& files, std::vector<LoadNote>& notes)
@@ -112,12 +112,12 @@ private:
     void include(XmlDocument& document, pugi::xml_node node) {
         const XmlElement element(document, node);
         const std::filesystem::path file = files_.find(element, "filename");
-        refuse_circle(element, file, document);
-        if (chain_.size() >= deepest_include)
-            element.fail("files include each other more than " + std::to_string(deepest_include) + " deep",
+        fail_if_circular(element, file, document);
+        if (chain_.size() >= max_include_depth)
+            element.fail("files include each other more than " + std::to_string(max_include_depth) + " deep",
                          "filename");
-        if (++includes_ > most_includes)
-            element.fail("there are more than " + std::to_string(most_includes) + " included files", "filename");
+        if (++includes_ > max_includes)
+            element.fail("there are more than " + std::to_string(max_includes) + " included files", "filename");
         XmlDocument& included = document.include(
             node, std::make_unique<XmlDocument>(read_text(file), file.string(), file.parent_path()));
         note_version(document, included);
@@ -126,7 +126,8 @@ private:
         chain_.pop_back();
     }
 
-    void refuse_circle(const XmlElement& element, const std::filesystem::path& file, const XmlDocument& document) {
+    void fail_if_circular(const XmlElement& element, const std::filesystem::path& file,
+                          const XmlDocument& document) {
         std::vector<const XmlDocument*> open = chain_;
         open.push_back(&document);
         const auto is_same = [&](const XmlDocument* other) {
@@ -146,15 +147,15 @@ private:
         const XmlElement root = included.root();
         const std::string& version = outer.version();
         if (root.has("version") && root.attribute("version") != version)
-            notes_.push_back({root.position("version"),
-                              "the version of the file that includes this one counts, '" + version + "'"});
+            notes_.push_back(
+                {root.position("version"), "the version of the including file is used, '" + version + "'"});
     }
 
     Variables& variables_;
     FileSearch& files_;
     std::vector<LoadNote>& notes_;
     int includes_ = 0;
-    std::vector<const XmlDocument*> chain_; // the documents around the one being expanded, the scene first
+    std::vector<const XmlDocument*> chain_; // documents that enclose the one being expanded, outermost first
 };
 
 } // namespace

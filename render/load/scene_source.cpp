@@ -7,13 +7,13 @@ namespace tessera {
 
 namespace {
 
-/// A value may be a path, or anything else: what could mean something in a file's name becomes "_".
-std::string word(const std::string& text) {
-    std::string word = text;
-    for (char& c : word)
+/// Replaces characters that could have a meaning in a file name, as a value may be a path.
+std::string file_name_part(const std::string& text) {
+    std::string part = text;
+    for (char& c : part)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-')
             c = '_';
-    return word;
+    return part;
 }
 
 } // namespace
@@ -30,7 +30,7 @@ std::string scene_name(const SceneSource& source) {
         std::filesystem::absolute(source.file).lexically_normal().parent_path().filename().string();
     std::string name = stem.rfind("scene", 0) == 0 && !folder.empty() ? folder : stem;
     for (const auto& [variable, value] : source.variables)
-        name += "-" + word(value);
+        name += "-" + file_name_part(value);
     return name;
 }
 
@@ -52,7 +52,7 @@ LoadProgress::State LoadProgress::state() const {
 
 void LoadProgress::check_wanted() const {
     if (given_up())
-        throw std::runtime_error("loading was given up");
+        throw std::runtime_error("loading was cancelled");
 }
 
 std::string to_string(const LoadProgress::State& state) {

@@ -8,45 +8,44 @@
 
 namespace tessera {
 
-/// `-D name=value` of the command line: replaces the <default> of that name.
+/// Variables by name, from `-D name=value` on the command line. Each overrides the <default> of that name.
 using SceneVariables = std::map<std::string, std::string>;
 
-/// Where a scene is from.
+/// Origin of a scene.
 struct SceneSource {
-    std::filesystem::path file;        ///< empty: the Cornell box inside the program
+    std::filesystem::path file;        ///< empty: the built-in Cornell box
     SceneVariables variables;          ///< -D name=value
-    std::filesystem::path camera = {}; ///< a file with the camera to take; empty: the scene's own
-    bool strict = false;               ///< a file that is not there ends the load
+    std::filesystem::path camera = {}; ///< file whose camera replaces the scene's; empty: none
+    bool strict = false;               ///< whether a missing file ends loading with an error
 };
 
-/// The name to show for a scene: the path of its file, or that it is the built-in one.
+/// Returns the path of a scene's file, or words for the built-in scene.
 std::string to_string(const SceneSource& source);
 
-/// A name for files that are made of it: the folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", else the
-/// file's; with the values of its variables, if it was given any: "glossy-0.01". All but letters, digits, "." and
-/// "-" is "_" in these.
+/// Returns a name for output files: the folder's for "kitchen/scene.xml" and "kitchen/scene_v3.xml", otherwise
+/// the file's stem. The values of variables are appended ("glossy-0.01"); in them, all characters but letters,
+/// digits, "." and "-" become "_".
 std::string scene_name(const SceneSource& source);
 
-/// How far the loading of a scene is, and whether it is still wanted. The threads that load write it, any may read
-/// it.
+/// Progress of loading a scene, and its cancellation. Thread-safe.
 class LoadProgress {
 public:
     enum class Stage { xml, files, bvh };
     struct State {
         Stage stage = Stage::xml;
         int done = 0;
-        int total = 0; ///< of the stage's steps; 0: it has none that can be counted
+        int total = 0; ///< steps of the stage; 0: the stage has no countable steps
         bool operator==(const State&) const = default;
     };
 
     void begin(Stage stage, int total = 0);
-    void step(); ///< one of the stage's steps is done
+    void step(); ///< counts one finished step of the stage
     State state() const;
 
-    /// Asks the loader to end with an exception, at the next file or within the BVH.
+    /// Makes the loader end with an exception at the next file or within the BVH.
     void give_up() { given_up_ = true; }
     bool given_up() const { return given_up_; }
-    /// Throws std::runtime_error if the scene is wanted no more.
+    /// Throws std::runtime_error after give_up().
     void check_wanted() const;
 
 private:
@@ -55,7 +54,7 @@ private:
     std::atomic<bool> given_up_ = false;
 };
 
-/// "scene file", "meshes and textures, 3 of 80", "BVH, 40 %".
+/// Describes a state: "scene file", "meshes and textures, 3 of 80", "BVH, 40 %".
 std::string to_string(const LoadProgress::State& state);
 
 } // namespace tessera

@@ -27,7 +27,7 @@ MeshPlacement placement_parameters(Properties& p) {
     return placement;
 }
 
-/// Moves a mesh that no file holds; errors are the shape's own.
+/// Places a generated mesh. Errors point at the shape, as there is no file.
 template <class Place>
 void place_builtin(const Properties& p, Shape& shape, Mesh mesh, const MeshPlacement& placement, Place place) {
     try {
@@ -47,7 +47,7 @@ void read_rectangle(LoadContext&, Properties& p, std::vector<Shape>& shapes, std
 }
 
 void read_cube(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    p.ignore({"face_normals"}); // it has no others
+    p.ignore({"face_normals"}); // a cube always has face normals
     read_flat_shape(p, shapes[index], make_cube());
 }
 
@@ -62,7 +62,7 @@ float radius_parameter(Properties& p) {
     return radius;
 }
 
-/// `to_shape` maps the unit shape to what the parameters say, before to_world.
+/// `to_shape` maps the unit shape to the shape's parameters, and is applied before to_world.
 void read_round_shape(Properties& p, Shape& shape, Mesh mesh, const glm::mat4& to_shape) {
     MeshPlacement placement = placement_parameters(p);
     placement.to_world = placement.to_world * to_shape;
@@ -93,7 +93,7 @@ void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std:
     read_round_shape(p, shapes[index], make_cylinder(), to_shape);
 }
 
-/// 0.6: the sharpest angle between faces that normals smooth over.
+/// Reads the largest angle (degrees) between faces that share smooth normals; a parameter of Mitsuba 0.6.
 std::optional<float> max_smooth_angle_parameter(Properties& p, bool face_normals) {
     if (!p.has("max_smooth_angle"))
         return {};
@@ -105,8 +105,8 @@ std::optional<float> max_smooth_angle_parameter(Properties& p, bool face_normals
     return angle;
 }
 
-/// A mesh in a file. `flip_v` is the format's default: images begin with the top row. `read` may ask for the
-/// normals of faces in the placement.
+/// Adds a job that reads a mesh file. `flip_v` is the format's default for flipping v, as image rows run from
+/// the top. `read` may request face normals in the placement.
 void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index,
                     bool flip_v, std::function<Mesh(const std::filesystem::path&, MeshPlacement&)> read) {
     const std::optional<LoadContext::File> file = context.take_file(p, "the shape is left out");
@@ -116,7 +116,7 @@ void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& sha
     flip_v = p.boolean("flip_tex_coords", flip_v);
     if (!file)
         return;
-    // The vector may still grow, but not move: it belongs to the context.
+    // The job refers to the vector and indexes it: it belongs to the context, and may grow.
     context.jobs.add(file->parameter,
                      [&shapes, index, path = file->path, read = std::move(read), placement, flip_v](const auto&) {
                          MeshPlacement placed = placement;
@@ -137,7 +137,7 @@ void read_obj_shape(LoadContext& context, Properties& p, std::vector<Shape>& sha
 }
 
 void read_ply_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    // Bytes are sRGB; floats are linear in Mitsuba 3, and sRGB in 0.6 unless the parameter says otherwise.
+    // Bytes are sRGB. Floats are linear in Mitsuba 3, and sRGB in 0.6. The parameter `srgb` overrides both.
     PlyColors colors;
     colors.srgb_floats = p.boolean("srgb", context.old_syntax);
     colors.srgb_bytes = p.boolean("srgb", true);
@@ -157,7 +157,7 @@ void read_serialized_shape(LoadContext& context, Properties& p, std::vector<Shap
     read_mesh_file(context, p, shapes, index, false, read);
 }
 
-// A plugin adds its row here; it fills shapes[index].mesh, now or in a job.
+// A new plugin adds its row here. The reader fills shapes[index].mesh, at once or in a job.
 constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::size_t)> plugins[] = {
     {"rectangle", read_rectangle}, {"cube", read_cube},
     {"disk", read_disk},           {"sphere", read_sphere},
@@ -165,9 +165,9 @@ constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::s
     {"ply", read_ply_shape},       {"serialized", read_serialized_shape},
 };
 
-int material_parameter(LoadContext& context, Properties& p, bool gives_light) {
+int material_parameter(LoadContext& context, Properties& p, bool emits_light) {
     const std::optional<XmlElement> bsdf = context.take_one_nested(p, "bsdf");
-    return bsdf ? material_of(context, *bsdf) : default_material(context, gives_light);
+    return bsdf ? material_of(context, *bsdf) : default_material(context, emits_light);
 }
 
 int area_light_parameter(LoadContext& context, Properties& p) {
@@ -175,8 +175,8 @@ int area_light_parameter(LoadContext& context, Properties& p) {
     return emitter ? add_shape_emitter(context, *emitter) : -1;
 }
 
-/// Adds a shape of triangles to `shapes`, which stay where they are until all files are read; one of an unknown
-/// plugin is left out, with a note.
+/// Adds a shape with triangles to `shapes`. The vector must stay at its address until all files are read. An
+/// unknown type is skipped, with a note.
 void add_mesh_shape(LoadContext& context, Properties& properties, std::vector<Shape>& shapes) {
     const auto* plugin = find_plugin(plugins, properties.type());
     if (!plugin) {
@@ -193,18 +193,18 @@ void add_mesh_shape(LoadContext& context, Properties& properties, std::vector<Sh
     properties.report_unused();
 }
 
-/// A shape in a group: as in Mitsuba it may neither give light nor be a group or an instance itself.
+/// Adds a shape to a group. As in Mitsuba, it may neither emit light nor be a group or an instance.
 void add_to_group(LoadContext& context, const XmlElement& element, std::vector<Shape>& shapes) {
     Properties properties(element, context.notes);
     if (properties.type() == "shapegroup" || properties.type() == "instance")
         element.fail("a shapegroup holds neither groups nor instances", "type");
     for (const XmlElement& child : element.children())
         if (const XmlElement nested = context.resolve(child); nested.tag() == "emitter")
-            child.fail("a shape of a shapegroup cannot give light: lights have no instances");
+            child.fail("a shape of a shapegroup cannot emit light: lights cannot be instanced");
     add_mesh_shape(context, properties, shapes);
 }
 
-/// The index in scene.groups of a <shape type="shapegroup">, which is read when it is met for the first time.
+/// Returns the index of a <shape type="shapegroup"> in scene.groups, and adds it on first use.
 int group_of(LoadContext& context, const XmlElement& element) {
     if (const auto known = context.groups.find(element.key()); known != context.groups.end())
         return known->second;
@@ -221,9 +221,10 @@ int group_of(LoadContext& context, const XmlElement& element) {
     return index;
 }
 
-/// The transform of an instance: rays are taken into its group's space, and must be finite there.
+/// Returns the transform of an instance. Its inverse transforms rays into the group's space, and must be
+/// finite.
 glm::mat4 placement_of(Properties& p) {
-    constexpr double largest = 1e12; // of the inverse's elements
+    constexpr double largest = 1e12; // element of the inverse; not tuned
     const glm::mat4 to_world = p.transform("to_world");
     const glm::dmat4 inverse = glm::inverse(glm::dmat4(to_world));
     for (int i = 0; i < 16; ++i)
@@ -235,7 +236,7 @@ glm::mat4 placement_of(Properties& p) {
 void add_instance(LoadContext& context, Properties& properties) {
     const std::vector<XmlElement> nested = context.take_nested(properties, "shape");
     if (nested.size() != 1 || nested[0].attribute("type") != "shapegroup")
-        properties.element().fail("an instance has one shapegroup in it, or a reference to one");
+        properties.element().fail("an instance needs exactly one shapegroup, nested or by reference");
     const int group = group_of(context, nested[0]);
     context.scene.instances.push_back({group, placement_of(properties)});
     properties.report_unused();
@@ -258,15 +259,16 @@ void note_missing_attributes(LoadContext& context) {
     for (const LoadContext::LoadedShape& loaded : context.shapes) {
         const Shape& shape = (*loaded.shapes)[loaded.index];
         if (shape.mesh.triangles.empty())
-            continue; // that has its own note
+            continue; // an empty mesh has a note of its own
         std::vector<const Texture*> textures = scene.materials[shape.material].textures();
         if (shape.area_light >= 0)
             textures.push_back(&scene.area_lights[shape.area_light].radiance);
         for (const Texture* texture : textures) {
-            const auto* wanted = std::get_if<AttributeTexture>(&texture->kind);
-            if (wanted && !shape.mesh.attribute(wanted->name))
-                context.notes.push_back({loaded.element.position(), "the shape has no attribute '" + wanted->name +
-                                                                        "'; white stands for it"});
+            const auto* attribute = std::get_if<AttributeTexture>(&texture->kind);
+            if (attribute && !shape.mesh.attribute(attribute->name))
+                context.notes.push_back(
+                    {loaded.element.position(),
+                     "the shape has no attribute '" + attribute->name + "'; white is used instead"});
         }
     }
 }

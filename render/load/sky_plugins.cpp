@@ -20,9 +20,9 @@ namespace tessera {
 
 namespace {
 
-constexpr int usual_resolution = 512;
-constexpr int highest_resolution = 8192;
-constexpr float smallest_disk = 1e-4f; // radians; for smaller ones floats are too coarse
+constexpr int default_resolution = 512;
+constexpr int max_resolution = 8192;
+constexpr float min_disk_radius = 1e-4f; // radians; floats are too coarse for smaller disks; not tuned
 
 PlaceAndTime place_and_time(Properties& p) {
     PlaceAndTime when;
@@ -44,12 +44,12 @@ PlaceAndTime place_and_time(Properties& p) {
     return when;
 }
 
-/// What sky and sun share: where the sun stands, and the air.
+/// Parameters that sky and sun share.
 struct Daylight {
-    glm::mat3 to_world; ///< of the model's frame, in which +y is up
-    glm::vec3 sun;      ///< toward it, in the model's frame
+    glm::mat3 to_world; ///< rotation from the model's frame, in which +y is up
+    glm::vec3 sun;      ///< unit direction toward the sun, in the model's frame; may be below the horizon
     float turbidity = 3;
-    float stretch = 1; ///< factor on all angles from the zenith
+    float stretch = 1; ///< factor on all zenith angles
 
     float elevation() const { return std::asin(glm::clamp(sun.y, 0.0f, 1.0f)); }
 };
@@ -57,7 +57,7 @@ struct Daylight {
 Daylight read_daylight(const LoadContext& context, Properties& p) {
     Daylight day;
     day.to_world = p.rotation("to_world");
-    const glm::mat3 up_z(1, 0, 0, 0, 0, 1, 0, -1, 0); // of Mitsuba 3: (x, y, z) of the model is (x, -z, y) there
+    const glm::mat3 up_z(1, 0, 0, 0, 0, 1, 0, -1, 0); // to Mitsuba 3's frame: (x, y, z) becomes (x, -z, y)
     if (!context.old_syntax)
         day.to_world = day.to_world * up_z;
     day.turbidity = p.number("turbidity", day.turbidity);
@@ -71,12 +71,12 @@ Daylight read_daylight(const LoadContext& context, Properties& p) {
         day.sun = glm::inverse(day.to_world) * glm::normalize(direction);
     } else {
         day.sun = sun_direction(when);
-        if (!context.old_syntax) // +x is south and +y west
+        if (!context.old_syntax) // there +x is south and +y is west
             day.sun = glm::transpose(up_z) * glm::vec3(day.sun.z, -day.sun.x, day.sun.y);
     }
     day.stretch = glm::clamp(p.number("stretch", 1), 1.0f, 2.0f);
     if (day.sun.y < 0)
-        p.note("the sun is below the horizon; it is taken to stand on it");
+        p.note("the sun is below the horizon and is moved to it");
     p.ignore({"sampling_weight", "complex_sun"});
     return day;
 }
@@ -88,12 +88,11 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, float sca
     settings.stretch = day.stretch;
     settings.extend = p.boolean("extend", false);
     settings.scale = Rgb(hosek_level * scale);
-    const int resolution = p.integer("resolution", usual_resolution);
-    if (resolution < 4 || resolution > highest_resolution)
-        p.take("resolution")
-            ->fail("'resolution' must be from 4 to " + std::to_string(highest_resolution), "value");
-    p.note("the sky is Preetham's, scaled by " + std::to_string(hosek_level).substr(0, 3) +
-           ": it stands for that of Hosek and Wilkie, which is not in this program");
+    const int resolution = p.integer("resolution", default_resolution);
+    if (resolution < 4 || resolution > max_resolution)
+        p.take("resolution")->fail("'resolution' must be from 4 to " + std::to_string(max_resolution), "value");
+    p.note("the Preetham sky, scaled by " + std::to_string(hosek_level).substr(0, 3) +
+           ", replaces the Hosek-Wilkie sky, which is not implemented");
     if (p.has("albedo"))
         p.note(*p.take("albedo"), "Preetham's sky does not depend on the albedo of the ground");
     if (context.scene.environment.map) {
@@ -104,7 +103,7 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, float sca
                                      day.to_world};
 }
 
-/// The direction of the sun's disk, in the world.
+/// Returns the unit direction toward the sun's disk, in the world.
 glm::vec3 disk_direction(const Daylight& day) {
     const float zenith_angle = day.stretch * (pi / 2 - day.elevation());
     const glm::vec3 along(day.sun.x, 0, day.sun.z);
@@ -119,15 +118,15 @@ void add_sun(LoadContext& context, Properties& p, const Daylight& day, float sca
     if (radius_scale < 0)
         p.take("sun_radius_scale")->fail("'sun_radius_scale' must not be negative", "value");
     float radius = sun_angular_radius * radius_scale;
-    if (p.has("sun_aperture")) { // degrees across
-        const float across = p.number("sun_aperture", 1);
-        if (across < 0 || across > 180)
+    if (p.has("sun_aperture")) { // diameter in degrees
+        const float diameter = p.number("sun_aperture", 1);
+        if (diameter < 0 || diameter > 180)
             p.take("sun_aperture")->fail("'sun_aperture' must be from 0 to 180 degrees", "value");
-        radius = glm::radians(across) / 2;
+        radius = glm::radians(diameter) / 2;
     }
     const Rgb radiance = scale * sun_radiance(day.turbidity, day.elevation());
     const glm::vec3 direction = disk_direction(day);
-    if (radius < smallest_disk)
+    if (radius < min_disk_radius)
         context.scene.directional_lights.push_back({direction, sun_irradiance(radiance)});
     else if (context.scene.environment.sun)
         p.note("the scene has another sun already; this one gives no light");

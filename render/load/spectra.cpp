@@ -31,7 +31,8 @@ double d65_at(int nm) {
     return d65[i] + t * (d65[i + 1] - d65[i]);
 }
 
-/// The integral of a spectrum with the matching functions, over that of Y.
+/// Returns the linear sRGB colour of a spectrum: its integral with the CIE matching functions, divided by the
+/// integral of y.
 template <class Spectrum>
 Rgb linear_rgb(const Spectrum& spectrum) {
     glm::dvec3 xyz(0);
@@ -86,7 +87,7 @@ struct Dielectric {
     float index;
 };
 
-// Indices are those at 589 nm and room temperature [Hecht, Optics].
+// Indices of refraction at 589 nm and room temperature [Hecht, Optics].
 constexpr Dielectric dielectrics[] = {
     {"vacuum", 1.0f},
     {"helium", 1.000036f},
@@ -119,9 +120,9 @@ struct Metal {
     ComplexIndex index;
 };
 
-// Measured spectra [Palik, Handbook of Optical Constants of Solids; SOPRA database] in Rec. 709 primaries, as the
-// renderers Tungsten and Yocto/GL publish them; what comes out below 0 there is 0. Not all are metals: the names
-// are those of Mitsuba's table. Missing of it: AlSb, whose red index comes out below 0.
+// Measured spectra [Palik, Handbook of Optical Constants of Solids; SOPRA database] in Rec. 709 primaries, as
+// published by the renderers Tungsten and Yocto/GL; negative values are set to 0. Names as in Mitsuba. AlSb is
+// missing, because its red index is negative.
 const Metal metals[] = {
     {"none", {Rgb(0), Rgb(1)}},
     {"a-C", {{2.944100f, 2.227150f, 1.968167f}, {0.887433f, 0.799322f, 0.815286f}}},
@@ -176,7 +177,7 @@ std::optional<float> refraction_index(std::string_view name) {
 }
 
 std::optional<ComplexIndex> metal_index(std::string_view name) {
-    static constexpr std::string_view measured_by = "_palik"; // Mitsuba's Na_palik, Ni_palik, V_palik
+    static constexpr std::string_view measured_by = "_palik"; // as in Mitsuba's Na_palik, Ni_palik, V_palik
     if (name.ends_with(measured_by))
         name.remove_suffix(measured_by.size());
     for (const Metal& metal : metals)

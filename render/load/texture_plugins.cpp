@@ -12,7 +12,7 @@ namespace tessera {
 
 namespace {
 
-/// to_uv of Mitsuba 3, or the scale and offset of 0.6.
+/// Reads `to_uv` of Mitsuba 3, or the scale and offset of 0.6.
 glm::mat3 uv_transform(Properties& p) {
     if (const auto element = p.take("to_uv"))
         return read_uv_transform(*element);
@@ -25,7 +25,7 @@ Filter filter_parameter(Properties& p) {
     const std::string name = p.text("filter_type", "bilinear");
     if (name == "nearest")
         return Filter::nearest;
-    // The prefiltered look-ups of 0.6 come to the same for many samples a pixel.
+    // Over many samples a pixel, bilinear look-ups average to about the prefiltered look-ups of 0.6: no note.
     if (name != "bilinear" && name != "trilinear" && name != "ewa")
         p.note(*p.take("filter_type"), "the filter '" + name + "' is replaced by 'bilinear'");
     return Filter::bilinear;
@@ -48,7 +48,7 @@ Wrap wrap_parameter(Properties& p) {
     return Wrap::repeat;
 }
 
-/// Whether bytes are sRGB: `raw` of Mitsuba 3, `gamma` of 0.6 (1: linear, -1: sRGB).
+/// Returns whether bytes are sRGB: `raw` of Mitsuba 3, `gamma` of 0.6 (1: linear, -1: sRGB).
 bool srgb_parameter(Properties& p) {
     const bool raw = p.boolean("raw", false);
     const float gamma = p.number("gamma", raw ? 1.0f : -1.0f);
@@ -62,7 +62,7 @@ Texture read_bitmap_texture(LoadContext& context, Properties& p) {
     texture.kind =
         BitmapTexture{bitmap_parameter(context, p, srgb_parameter(p)), filter_parameter(p), wrap_parameter(p)};
     texture.to_uv = uv_transform(p);
-    p.ignore({"max_anisotropy", "cache", "format", "accel"}); // of speed and memory
+    p.ignore({"max_anisotropy", "cache", "format", "accel"}); // speed and memory only
     return texture;
 }
 
@@ -91,7 +91,7 @@ Texture scaled(Texture texture, float factor) {
     return texture;
 }
 
-/// Mitsuba 3: numbers that no spectrum is made of.
+/// Reads numbers that are not converted to a spectrum; a plugin of Mitsuba 3.
 Texture read_raw_constant(LoadContext& context, Properties& p) {
     const auto value = p.take("value");
     if (!value)
@@ -101,7 +101,7 @@ Texture read_raw_constant(LoadContext& context, Properties& p) {
     return read_color(*value, Rgb(1), context.notes);
 }
 
-/// 0.6: another texture times a factor.
+/// Reads a texture times a factor; a plugin of Mitsuba 0.6.
 Texture read_scale(LoadContext& context, Properties& p) {
     const Rgb factors = p.color("scale", Rgb(1));
     if (factors.r != factors.g || factors.g != factors.b)
@@ -119,18 +119,19 @@ Texture attribute_texture(const std::string& name, float scale) {
     return texture;
 }
 
-/// 0.6
+/// Reads a plugin of Mitsuba 0.6.
 Texture read_vertex_colors(LoadContext&, Properties&) {
     return attribute_texture(std::string(vertex_color), 1);
 }
 
-/// Mitsuba 3
+/// Reads a plugin of Mitsuba 3.
 Texture read_mesh_attribute(LoadContext&, Properties& p) {
     const std::string name = p.text("name", "");
     if (!p.has("name"))
-        p.element().fail("'mesh_attribute' needs the 'name' of one");
+        p.element().fail("'mesh_attribute' needs a 'name'");
     if (!name.starts_with("vertex_") && !name.starts_with("face_"))
-        p.take("name")->fail("'" + name + "' is no attribute: its name begins with 'vertex_' or 'face_'", "value");
+        p.take("name")->fail("'" + name + "' is not an attribute: its name must begin with 'vertex_' or 'face_'",
+                             "value");
     return attribute_texture(name, p.number("scale", 1));
 }
 
@@ -146,15 +147,15 @@ constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
 } // namespace
 
 std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& p, bool srgb) {
-    const std::optional<LoadContext::File> file = context.take_file(p, "grey stands for it");
+    const std::optional<LoadContext::File> file = context.take_file(p, "grey is used instead");
     if (!file)
         return std::make_shared<const Bitmap>(Bitmap{1, 1, false, {}, {Rgb(0.5f)}});
     auto& shared = context.bitmaps[{file->path.lexically_normal().string(), srgb}];
     if (!shared) {
         shared = std::make_shared<Bitmap>();
         context.jobs.add(file->parameter,
-                         [target = shared, path = file->path, srgb](const std::function<bool()>& wanted) {
-                             *target = read_bitmap(path, srgb, wanted);
+                         [target = shared, path = file->path, srgb](const std::function<bool()>& keep_reading) {
+                             *target = read_bitmap(path, srgb, keep_reading);
                              return std::string();
                          });
     }
@@ -166,7 +167,7 @@ Texture read_texture(LoadContext& context, const XmlElement& element) {
     Properties properties(element, context.notes);
     const auto* plugin = find_plugin(plugins, properties.type());
     if (!plugin) {
-        properties.note("the texture '" + properties.type() + "' is not known; magenta stands for it");
+        properties.note("the texture '" + properties.type() + "' is not known; magenta is used instead");
         return marking_color;
     }
     const Texture texture = plugin->read(context, properties);
@@ -190,7 +191,7 @@ Texture reflectance_parameter(LoadContext& context, Properties& properties, std:
         if (color->r < 0 || color->g < 0 || color->b < 0)
             properties.take(name)->fail("'" + std::string(name) + "' must not be negative", "value");
         if (color->r > 1 || color->g > 1 || color->b > 1) {
-            properties.note(*properties.take(name), "'" + std::string(name) + "' is above 1 and cut there");
+            properties.note(*properties.take(name), "'" + std::string(name) + "' is above 1 and is clamped to 1");
             *color = glm::min(*color, Rgb(1));
         }
     }

@@ -1,10 +1,10 @@
 #include "render/load/properties.h"
 
-#include <glm/matrix.hpp>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
 
@@ -19,7 +19,7 @@ glm::vec3 triple(const XmlElement& element, const char* attribute) {
     return {values[0], values[1], values[2]};
 }
 
-/// Either value="x y z" (or one number for all three where `uniform`), or attributes x, y and z.
+/// Reads value="x y z" (or one number for all three if `uniform`), or attributes x, y and z.
 glm::vec3 components(const XmlElement& element, float fallback, bool uniform) {
     if (element.has("value")) {
         const auto values = element.numbers("value");
@@ -47,7 +47,7 @@ glm::mat4 matrix_of_rows(const XmlElement& element) {
     return m;
 }
 
-/// Nine numbers stand for a map of the plane: its translation belongs into the fourth column.
+/// Reads a matrix. Nine numbers are a transform of the plane, whose translation goes to the fourth column.
 glm::mat4 planar_matrix(const XmlElement& element) {
     const glm::mat4 m = matrix_of_rows(element);
     if (element.numbers("value").size() == 16)
@@ -59,7 +59,7 @@ glm::mat4 planar_matrix(const XmlElement& element) {
     return result;
 }
 
-/// Looks along +z with +x to the left, as Mitsuba's cameras do.
+/// Returns the transform of a camera that looks along its +z, with its +x to the left, as in Mitsuba.
 glm::mat4 look_at(const XmlElement& element) {
     const glm::vec3 origin = triple(element, "origin");
     const glm::vec3 target = triple(element, "target");
@@ -67,10 +67,10 @@ glm::mat4 look_at(const XmlElement& element) {
         element.fail("origin and target of a lookat are the same point", "target");
     const glm::vec3 forward = glm::normalize(target - origin);
     glm::vec3 up = element.has("up") ? triple(element, "up") : glm::vec3(0);
-    if (up == glm::vec3(0)) // any that is not the direction itself
+    if (up == glm::vec3(0)) // any direction that is not parallel to `forward`
         up = std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     glm::vec3 left = glm::cross(glm::normalize(up), forward);
-    if (!(glm::length(left) > 1e-6f)) // a camera that looks straight down, with the usual up
+    if (!(glm::length(left) > 1e-6f)) // `up` is parallel to `forward`
         left = std::abs(forward.y) < 0.9f ? glm::cross(glm::vec3(0, 1, 0), forward)
                                           : glm::cross(glm::vec3(0, 0, 1), forward);
     glm::mat4 m(1.0f);
@@ -89,8 +89,7 @@ glm::mat4 rotation(const XmlElement& element, bool planar) {
     const float angle = glm::radians(element.number("angle"));
     if (is_of_version_0(element) || std::abs(glm::length(axis) - 1) < 1e-6f)
         return glm::rotate(glm::mat4(1.0f), angle, glm::normalize(axis));
-    // Mitsuba 3 takes the axis as it is: one that is not of unit length stretches what it turns, by Rodrigues'
-    // formula.
+    // Mitsuba 3 does not normalise the axis. Rodrigues' formula with an axis of another length also stretches.
     const float c = std::cos(angle), s = std::sin(angle);
     const glm::mat3 cross(0, axis.z, -axis.y, -axis.z, 0, axis.x, axis.y, -axis.x, 0);
     return glm::mat4(c * glm::mat3(1.0f) + s * cross + (1 - c) * glm::outerProduct(axis, axis));
@@ -108,7 +107,7 @@ glm::mat4 step(const XmlElement& element, bool planar) {
         return glm::scale(glm::mat4(1.0f), components(element, 1, true));
     if (tag == "rotate")
         return rotation(element, planar);
-    element.fail("<" + std::string(tag) + "> is no step of a transform");
+    element.fail("<" + std::string(tag) + "> is not a step of a transform");
 }
 
 glm::mat4 product_of_steps(const XmlElement& transform, bool planar) {
@@ -130,11 +129,11 @@ glm::mat4 read_transform(const XmlElement& transform) {
 std::optional<glm::mat3> rotation_of(const glm::mat4& transform) {
     glm::mat3 m(transform);
     for (int i = 0; i < 3; ++i) {
-        const float before = glm::length(m[i]);
+        const float full_length = glm::length(m[i]);
         for (int j = 0; j < i; ++j)
             m[i] -= glm::dot(m[i], m[j]) * m[j];
         const float length = glm::length(m[i]);
-        if (!(length > 1e-5f * before))
+        if (!(length > 1e-5f * full_length))
             return {};
         m[i] /= length;
     }

@@ -20,17 +20,17 @@ namespace tessera {
 namespace {
 
 constexpr int unlimited_depth = 65;
-constexpr int largest_film = 16384; // pixels a side
+constexpr int max_film_side = 16384; // pixels a side
 
 FovAxis fov_axis_parameter(Properties& p) {
     const std::string name = p.text("fov_axis", "x");
     const auto axis = fov_axis_from_name(name);
     if (!axis)
-        p.take("fov_axis")->fail("'" + name + "' is no axis: x, y, diagonal, smaller or larger", "value");
+        p.take("fov_axis")->fail("'" + name + "' is not an axis (x, y, diagonal, smaller or larger)", "value");
     return *axis;
 }
 
-/// "50mm", on 35 mm film: across the diagonal of 36 by 24 mm.
+/// Returns the diagonal field of view in degrees of a focal length such as "50mm" on 35 mm film (36 by 24 mm).
 float fov_of_focal_length(Properties& p) {
     std::string text = p.text("focal_length", "50mm");
     if (text.ends_with("mm"))
@@ -65,16 +65,16 @@ void read_placement(Properties& p, Camera& camera) {
 
 int film_side(Properties& p, std::string_view name, int fallback) {
     const int side = p.integer(name, fallback);
-    if (side < 1 || side > largest_film)
+    if (side < 1 || side > max_film_side)
         p.take(name)->fail(
-            "the film's " + std::string(name) + " must be from 1 to " + std::to_string(largest_film), "value");
+            "the film's " + std::string(name) + " must be from 1 to " + std::to_string(max_film_side), "value");
     return side;
 }
 
 void note_filter(LoadContext& context, const XmlElement& element) {
     Properties p(element, context.notes);
     if (p.type() != "box")
-        p.note("the reconstruction filter '" + p.type() + "' is not used: pixels are means over a box");
+        p.note("the reconstruction filter '" + p.type() + "' is not used: a box filter is used instead");
 }
 
 void read_film(LoadContext& context, const XmlElement& element) {
@@ -82,7 +82,7 @@ void read_film(LoadContext& context, const XmlElement& element) {
     context.scene.size = {film_side(p, "width", 768), film_side(p, "height", 576)};
     if (const std::optional<XmlElement> filter = context.take_one_nested(p, "rfilter"))
         note_filter(context, *filter);
-    // How Mitsuba would write its file.
+    // Parameters of Mitsuba's output file.
     p.ignore({"file_format", "pixel_format", "component_format", "banner", "gamma", "exposure", "tonemap_method",
               "attach_log", "high_quality_edges", "compensate"});
     p.report_unused();
@@ -125,14 +125,15 @@ void read_integrator(LoadContext& context, const XmlElement& element) {
         p.take("max_depth")->fail("'max_depth' must be at least 1, or -1 for no limit", "value");
     if (depth > most_edges)
         p.note(*p.take("max_depth"),
-               fmt::format("max_depth {}: {} is taken, the most edges that paths have here", depth, most_edges));
+               fmt::format("max_depth {} is reduced to {}, the largest number of edges of a path", depth,
+                           most_edges));
     context.scene.max_depth = depth == -1 ? unlimited_depth : depth;
     if (p.type() == "path") {
         p.ignore({"rr_depth", "strict_normals"});
         p.report_unused();
         return;
     }
-    // Integrators that add something (aov, moment, adaptive) hold the one that says how light travels.
+    // Wrappers such as `aov`, `moment` and `adaptive` contain the integrator that has the depth.
     const std::optional<XmlElement> nested = context.take_one_nested(p, "integrator");
     p.note("the integrator '" + p.type() + "' is not used: the method is chosen in Tessera");
     if (nested)
@@ -159,9 +160,9 @@ void read_sensor(LoadContext& context, const XmlElement& element) {
                                    p.number("principal_point_offset_y", 0)};
     if (const std::optional<XmlElement> film = context.take_one_nested(p, "film"))
         read_film(context, *film);
-    context.take_nested(p, "sampler"); // how many samples there are is the viewer's choice
+    context.take_nested(p, "sampler"); // the sample count is a setting of Tessera
     if (p.number("near_clip", 0.01f) > 0.1f || p.number("far_clip", 1e4f) < 1000)
-        p.note("'near_clip' and 'far_clip' are not used: all that lies before the camera is seen");
+        p.note("'near_clip' and 'far_clip' are not used: the camera sees everything in front of it");
     p.report_unused();
 }
 

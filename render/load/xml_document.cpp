@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* white_space = " \t\r\n";
 
-/// The offset of an attribute's value, given that of the element's name; npos when it is not found. The parser
-/// keeps no offsets of attributes, and a message should point at the number, not at the tag.
+/// Returns the offset of an attribute's value, given the offset of the element's name; npos if not found.
+/// pugixml keeps offsets of elements only, and a message should point at the value.
 std::size_t value_offset(const std::string& text, std::size_t element, std::string_view wanted) {
     std::size_t at = text.find_first_of(" \t\r\n/>", element);
     while (at != std::string::npos) {
@@ -49,7 +49,7 @@ XmlDocument::XmlDocument(std::string text, std::string name, std::optional<std::
         version_ = root().attribute("version");
         return;
     }
-    // At the end of a file the offset is one past the last character; the last line is shown then.
+    // For an unexpected end, pugixml's offset is one past the last character. The last line is shown then.
     const std::size_t last = text_.empty() ? 0 : text_.find_last_not_of(white_space);
     const std::size_t offset =
         std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)),
@@ -88,7 +88,7 @@ std::vector<XmlElement> XmlDocument::elements() const {
         std::vector<XmlElement> found;
     };
     Walker walker(*this);
-    pugi::xml_node top = tree_; // traverse() changes nothing but is not const
+    pugi::xml_node top = tree_; // traverse() is not const, but changes nothing
     top.traverse(walker);
     return walker.found;
 }
@@ -124,7 +124,7 @@ FilePosition XmlDocument::position(pugi::xml_node node, const char* attribute) c
 
 FilePosition XmlDocument::position(std::size_t offset) const {
     const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-    const std::size_t line = static_cast<std::size_t>(after - line_starts_.begin()); // counted from 1
+    const std::size_t line = static_cast<std::size_t>(after - line_starts_.begin()); // from 1
     return {name_, static_cast<int>(line), static_cast<int>(offset - line_starts_[line - 1]) + 1};
 }
 

@@ -32,13 +32,13 @@ void transform_positions(Mesh& mesh, const glm::mat4& to_world) {
     }
 }
 
-/// Leaves 0 where a normal has no direction.
+/// Transforms normals to unit length, or to 0 if they have no direction.
 void transform_normals(Mesh& mesh, const glm::mat4& to_world) {
     glm::mat3 matrix = normal_matrix(glm::mat3(to_world));
     float largest = 0;
     for (int i = 0; i < 9; ++i)
         largest = std::max(largest, std::abs(matrix[i / 3][i % 3]));
-    if (largest > 0) // cofactors of tiny shapes are tinier still
+    if (largest > 0) // cofactors of small scales may underflow
         matrix /= largest;
     for (glm::vec3& normal : mesh.normals) {
         const glm::vec3 n = matrix * normal;
@@ -58,7 +58,7 @@ float angle_between(glm::vec3 a, glm::vec3 b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Replaces normals without a direction by computed ones. Returns how many there were.
+/// Replaces normals without a direction by computed ones. Returns how many were replaced.
 std::size_t repair_normals(Mesh& mesh) {
     const auto broken = static_cast<std::size_t>(
         std::count_if(mesh.normals.begin(), mesh.normals.end(), [](glm::vec3 n) { return !is_unit(n); }));

@@ -1,4 +1,4 @@
-// Meshes from files, their way into a scene, and shapes made of triangles.
+// Meshes: reading files, placement in a scene, and tessellated shapes.
 #pragma once
 
 #include "render/surface/mesh.h"
@@ -13,81 +13,81 @@
 
 namespace tessera {
 
-/// Wavefront OBJ: positions, texture coordinates, normals and faces; polygons become fans, groups and materials
-/// are passed over. Normals may have any length, 0 included. Throws std::runtime_error that says what is wrong and
-/// where.
+/// Read Wavefront OBJ: positions, texture coordinates, normals and faces. Polygons become triangle fans; groups
+/// and materials are ignored. Normals may have any length, also 0. Throw std::runtime_error with the reason and
+/// the place.
 Mesh read_obj(const std::filesystem::path& file);
 Mesh parse_obj(const std::string& text);
 
-/// How a PLY file's colours are coded: sRGB, or linear.
+/// Encoding of a PLY file's colours: sRGB or linear.
 struct PlyColors {
     bool srgb_bytes = true; ///< integers of any size
     bool srgb_floats = false;
 };
 
-/// Stanford PLY, text or binary of either byte order: vertices with x y z, nx ny nz, u v (or s t, or texture_u
-/// texture_v), faces, and attributes of both such as red green blue (see PlyLayout); polygons become fans,
-/// other elements and properties are passed over. Throws as read_obj does.
+/// Read Stanford PLY, text or binary of either byte order: vertices with x y z, nx ny nz, u v (or s t, or
+/// texture_u texture_v), faces, and attributes of both, such as red green blue (see PlyLayout). Polygons become
+/// triangle fans; other elements and properties are ignored. Throw as read_obj() does.
 Mesh read_ply(const std::filesystem::path& file, PlyColors colors = {});
 Mesh parse_ply(std::string_view bytes, PlyColors colors = {});
 
 /// One mesh of a file in Mitsuba's format "serialized".
 struct SerializedMesh {
-    Mesh mesh;                 ///< normals of any length; colours are taken as linear
-    bool face_normals = false; ///< the file asks for the normals of faces
+    Mesh mesh;                 ///< normals of any length; colours are read as linear
+    bool face_normals = false; ///< whether the file requests face normals
 };
 
-/// Versions 3 and 4 (the latter with names), single or double precision. `index` counts the file's meshes from 0.
-/// Memory grows with what the file holds, not with what it promises. Throws std::runtime_error.
+/// Read one mesh of versions 3 or 4, in single or double precision. `index` counts the file's meshes from 0.
+/// Throw std::runtime_error, before allocating if the file cannot hold the declared counts.
 SerializedMesh read_serialized(const std::filesystem::path& file, int index);
 SerializedMesh parse_serialized(std::istream& stream, int index);
 
-/// How a shape's mesh becomes the scene's.
+/// Parameters for placing a shape's mesh in the scene.
 struct MeshPlacement {
     glm::mat4 to_world{1.0f};
-    bool face_normals = false;               ///< drop the normals of the vertices, and compute none
-    std::optional<float> max_smooth_angle{}; ///< smooth_normals() with this in place of the file's normals
-    bool flip_normals = false;               ///< turn the inside out
+    bool face_normals = false;               ///< whether vertex normals are removed and not computed
+    std::optional<float> max_smooth_angle{}; ///< degrees; smooth_normals() replaces the file's normals
+    bool flip_normals = false;               ///< whether front and back are exchanged
 };
 
-/// Moves a mesh of a file to its place. Normals move with the inverse transpose; where the file has none, or
-/// unusable ones, they are computed. Triangles keep their order. Returns a note, or nothing; throws
-/// std::runtime_error when a position is not finite.
+/// Transforms a file's mesh to its place. Normals are transformed by the inverse transpose; missing or invalid
+/// ones are computed. Triangles keep their order. Returns the text of a note, or nothing. Throws
+/// std::runtime_error if a position is not finite.
 std::string place_mesh(Mesh& mesh, const MeshPlacement& placement);
 
-/// Moves a shape made of flat faces, whose order of corners follows to_world: what was outside stays outside under
-/// a mirror image.
+/// Transforms a mesh of flat faces, whose orientation follows the order of their corners. The outside stays the
+/// outside under mirroring. Throws as place_mesh() does.
 void place_flat_mesh(Mesh& mesh, const MeshPlacement& placement);
 
-/// Smooth normals, the faces weighted by their angles [Thuermer and Wuethrich 1998]. A vertex without a face of
-/// positive area gets +z.
+/// Computes smooth vertex normals, with faces weighted by their angle at the vertex [Thuermer and Wuethrich
+/// 1998]. A vertex without a face of positive area gets +z.
 void compute_normals(Mesh& mesh);
 
-/// Smooth normals as of compute_normals(), but for edges between faces whose normals are further apart than
-/// `max_angle` (degrees): there vertices are split, so that each side has its own. Edges join vertices in one
-/// place.
+/// Computes smooth normals as compute_normals() does, except across edges whose face normals differ by more
+/// than `max_angle` (degrees). There, vertices are split, so that each side has its own normal. Vertices at the
+/// same position count as one.
 void smooth_normals(Mesh& mesh, float max_angle);
 
-/// The square [-1, 1]^2 in the plane z = 0, its front toward +z, with uv from 0 to 1.
+/// Returns the square [-1, 1]^2 in the plane z = 0, with its front toward +z and uv from 0 to 1.
 Mesh make_rectangle();
 
-/// The cube [-1, 1]^3, seen from outside, with uv from 0 to 1 on every face as Mitsuba lays it.
+/// Returns the cube [-1, 1]^3, with its front outside, and uv from 0 to 1 on every face as in Mitsuba.
 Mesh make_cube();
 
-// Round shapes as triangles, with the exact normals and Mitsuba's uv at the vertices. Each has its shape's exact
-// area (to float precision): the vertices stand a little outside of it, the middles of the triangles a little
+// Tessellated round shapes, with exact normals and Mitsuba's uv at the vertices. Each has the exact area of its
+// shape (to float precision): the vertices are a little outside of it, and the centres of triangles a little
 // inside.
 
-/// A sphere of radius 1 about the origin, seen from outside; u = phi / 2 pi about +z, v = theta / pi from +z. No
-/// point of it is further than 2e-4 from the exact one.
+/// Returns a sphere of radius 1 about the origin, with its front outside; u = phi / 2 pi about +z, v = theta /
+/// pi from +z. Its points are within 2e-4 of the exact sphere.
 Mesh make_sphere();
 
-/// A disk of radius 1 about the origin in the plane z = 0, its front toward +z, without normals; u = radius, v =
-/// phi / 2 pi.
+/// Returns a disk of radius 1 about the origin in the plane z = 0, with its front toward +z, without normals; u
+/// = radius, v = phi / 2 pi.
 Mesh make_disk();
 
-/// The side of a cylinder of radius 1 about the z axis from z = 0 to 1, seen from outside and open at both ends;
-/// u = phi / 2 pi, v = z.
+/// Returns the side of a cylinder of radius 1 about the z axis from z = 0 to 1, with its front outside and open
+/// at both ends; u = phi / 2 pi, v = z.
 Mesh make_cylinder();
 
 } // namespace tessera

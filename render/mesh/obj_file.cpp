@@ -18,36 +18,36 @@ namespace tessera {
 
 namespace {
 
-constexpr std::string_view gaps = " \t\r";
+constexpr std::string_view white_space = " \t\r";
 
-bool is_gap(char c) {
+bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/// Words of a line, such as the corners of a face.
+/// Counts the words of a line, such as the corners of a face.
 std::size_t count_words(std::string_view list) {
     std::size_t count = 0;
-    bool after_gap = true;
+    bool after_space = true;
     for (const char c : list) {
-        count += after_gap && !is_gap(c);
-        after_gap = is_gap(c);
+        count += after_space && !is_space(c);
+        after_space = is_space(c);
     }
     return count;
 }
 
-bool may_be_of_number(char c) {
+bool is_number_character(char c) {
     return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
 }
 
-/// How many numbers a line lists; 0 when something in it cannot be part of one ("nan", "1,5").
+/// Counts the numbers of a line; 0 if a character cannot be part of a number ("nan", "1,5").
 std::size_t count_numbers(std::string_view list) {
     list = list.substr(0, list.find('#'));
     const bool is_plain =
-        std::all_of(list.begin(), list.end(), [](char c) { return may_be_of_number(c) || is_gap(c); });
+        std::all_of(list.begin(), list.end(), [](char c) { return is_number_character(c) || is_space(c); });
     return is_plain ? count_words(list) : 0;
 }
 
-/// How much there is of everything, so that memory is set aside for no more.
+/// Counts of a file's items, for exact allocation.
 struct ObjCounts {
     std::size_t positions = 0, normals = 0, uvs = 0, triangles = 0;
 };
@@ -58,14 +58,14 @@ void require_numbers(std::string_view list, std::size_t needed, std::size_t line
                                  " numbers or more");
 }
 
-/// Goes through the file once before tinyobjloader does, which takes what is no number for 0.
+/// Counts items and checks numbers. tinyobjloader would read an invalid number as 0.
 ObjCounts scan(std::istream& stream) {
     ObjCounts counts;
     std::string text;
     for (std::size_t line = 1; std::getline(stream, text); ++line) {
         std::string_view rest = text;
-        rest.remove_prefix(std::min(rest.find_first_not_of(gaps), rest.size()));
-        const std::string_view name = rest.substr(0, rest.find_first_of(gaps));
+        rest.remove_prefix(std::min(rest.find_first_not_of(white_space), rest.size()));
+        const std::string_view name = rest.substr(0, rest.find_first_of(white_space));
         rest.remove_prefix(name.size());
         if (name == "v" || name == "vn" || name == "vt")
             require_numbers(rest, name == "vt" ? 1 : 3, line);
@@ -80,20 +80,20 @@ ObjCounts scan(std::istream& stream) {
     return counts;
 }
 
-/// Gathers what tinyobjloader reports, and makes one vertex of each combination of indices in use.
+/// Collects what tinyobjloader reports, and makes one vertex of each combination of indices in use.
 class ObjBuilder {
 public:
     explicit ObjBuilder(const ObjCounts& counts) {
-        // Most is taken at the end, where the mesh is made of the lists; normals are its own, or computed ones.
-        const std::size_t a_vertex = 3 * sizeof(glm::vec3) + sizeof(ObjVertex) + sizeof(unsigned) +
-                                     (counts.uvs > 0 ? sizeof(glm::vec2) : 0);
-        ask_for_memory(counts.positions * a_vertex + counts.normals * sizeof(glm::vec3) +
+        // Memory peaks in finish(), which makes the mesh from the lists; normals are given or computed.
+        const std::size_t vertex_bytes = 3 * sizeof(glm::vec3) + sizeof(ObjVertex) + sizeof(unsigned) +
+                                         (counts.uvs > 0 ? sizeof(glm::vec2) : 0);
+        ask_for_memory(counts.positions * vertex_bytes + counts.normals * sizeof(glm::vec3) +
                            counts.uvs * sizeof(glm::vec2) + counts.triangles * sizeof(glm::uvec3),
                        "its " + std::to_string(counts.positions) + " vertices and " +
                            std::to_string(counts.triangles) + " triangles");
         positions_.reserve(counts.positions);
-        first_of_.reserve(counts.positions);
-        vertices_.reserve(counts.positions); // as many or more, if each is in use
+        first_vertex_.reserve(counts.positions);
+        vertices_.reserve(counts.positions); // at least as many, if every position is used
         normals_.reserve(counts.normals);
         uvs_.reserve(counts.uvs);
         mesh_.triangles.reserve(counts.triangles);
@@ -102,7 +102,7 @@ public:
     void add_position(glm::vec3 p) {
         require_finite(p.x + p.y + p.z, "position", positions_.size());
         positions_.push_back(p);
-        first_of_.push_back(none);
+        first_vertex_.push_back(none);
     }
     void add_normal(glm::vec3 n) { normals_.push_back(n); }
     void add_uv(glm::vec2 uv) {
@@ -124,8 +124,8 @@ public:
     }
 
     Mesh finish() {
-        // What is no longer needed goes before the next array comes.
-        release(first_of_);
+        // Each list is released before the next array is allocated.
+        release(first_vertex_);
         mesh_.positions.reserve(vertices_.size());
         for (const ObjVertex& v : vertices_)
             mesh_.positions.push_back(positions_[v.position]);
@@ -150,7 +150,7 @@ private:
 
     struct ObjVertex {
         unsigned position, uv, normal;
-        unsigned next; // another vertex at the same position
+        unsigned next; // index of another vertex at the same position, or none
     };
 
     template <class T>
@@ -158,17 +158,17 @@ private:
         array = std::vector<T>();
     }
 
-    /// Numbers such as 1e99 become infinite.
-    static void require_finite(float sum, const char* what, std::size_t before) {
+    /// Throws std::runtime_error for numbers such as 1e99, which become infinite.
+    static void require_finite(float sum, const char* name, std::size_t index) {
         if (!std::isfinite(sum))
-            throw std::runtime_error(std::string(what) + " " + std::to_string(before + 1) + " is too large");
+            throw std::runtime_error(std::string(name) + " " + std::to_string(index + 1) + " is too large");
     }
 
-    unsigned index(int from_file, std::size_t count, const char* what) const {
-        // 1 is the first so far, -1 the last so far.
+    unsigned index(int from_file, std::size_t count, const char* name) const {
+        // 1 is the first item, -1 the last item read so far.
         const long long i = from_file > 0 ? from_file - 1ll : static_cast<long long>(count) + from_file;
         if (from_file == 0 || i < 0 || i >= static_cast<long long>(count))
-            throw std::runtime_error("face " + std::to_string(faces_) + " refers to " + what + " " +
+            throw std::runtime_error("face " + std::to_string(faces_) + " refers to " + name + " " +
                                      std::to_string(from_file) + ", but there are " + std::to_string(count) +
                                      " before it");
         return static_cast<unsigned>(i);
@@ -180,12 +180,12 @@ private:
             corner.texcoord_index == 0 ? none : index(corner.texcoord_index, uvs_.size(), "texture coordinate");
         const unsigned normal =
             corner.normal_index == 0 ? none : index(corner.normal_index, normals_.size(), "normal");
-        for (unsigned v = first_of_[position]; v != none; v = vertices_[v].next)
+        for (unsigned v = first_vertex_[position]; v != none; v = vertices_[v].next)
             if (vertices_[v].uv == uv && vertices_[v].normal == normal)
                 return v;
         const auto added = static_cast<unsigned>(vertices_.size());
-        vertices_.push_back({position, uv, normal, first_of_[position]});
-        first_of_[position] = added;
+        vertices_.push_back({position, uv, normal, first_vertex_[position]});
+        first_vertex_[position] = added;
         return added;
     }
 
@@ -193,7 +193,7 @@ private:
     std::vector<glm::vec3> normals_;
     std::vector<glm::vec2> uvs_;
     std::vector<ObjVertex> vertices_;
-    std::vector<unsigned> first_of_; // by position, an index of vertices_
+    std::vector<unsigned> first_vertex_; // by position, an index of vertices_
     std::size_t faces_ = 0;
     Mesh mesh_;
 };

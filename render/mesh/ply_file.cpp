@@ -18,21 +18,21 @@ namespace tessera {
 
 namespace {
 
-/// The fewest bytes that a row of the element can take.
-std::size_t smallest_row(const PlyElement& element, bool is_text) {
+/// Returns the smallest number of bytes that a row of the element can take.
+std::size_t min_row_bytes(const PlyElement& element, bool is_text) {
     if (is_text)
-        return 2 * element.properties.size(); // a digit and a space or line end each
+        return 2 * element.properties.size(); // each takes a digit, and a space or line end
     std::size_t size = 0;
     for (const PlyProperty& property : element.properties)
         size += size_of(property.is_list ? property.count_type : property.type);
     return size;
 }
 
-/// A file must be able to hold what it promises, before any memory is set aside for it.
+/// Throws std::runtime_error if the rest of the file cannot hold the declared rows. Call it before allocating.
 void check_count(const PlyElement& element, const PlyValues& values) {
-    const std::uint64_t available = values.left() + 1; // the last line of a text may have no end
-    if (element.count > available / smallest_row(element, values.is_text()))
-        throw std::runtime_error("the header promises " + std::to_string(element.count) + " rows of '" +
+    const std::uint64_t available = values.left() + 1; // the last text line may lack its line end
+    if (element.count > available / min_row_bytes(element, values.is_text()))
+        throw std::runtime_error("the header declares " + std::to_string(element.count) + " rows of '" +
                                  element.name + "', but the file ends too early for them");
     if (element.count >= std::numeric_limits<std::uint32_t>::max())
         throw std::runtime_error("there are too many rows of '" + element.name + "'");
@@ -51,15 +51,15 @@ void skip(PlyValues& values, const PlyProperty& property) {
         values.next(property.type);
 }
 
-/// What stands for full intensity: integers are shares of their largest value.
-float largest_color(PlyType type) {
+/// Returns the value of full intensity: 1 for floats, the largest value for integers.
+float full_intensity(PlyType type) {
     if (type == PlyType::float32 || type == PlyType::float64)
         return 1;
     const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
     return std::exp2(8 * static_cast<float>(size_of(type)) - (is_signed ? 1 : 0)) - 1;
 }
 
-/// The header, which must fit into memory; leaves the bytes after it.
+/// Takes the header, which must fit into the window's capacity.
 PlyHeader take_header(ByteWindow& bytes) {
     bytes.fill(ByteWindow::capacity);
     PlyHeader header = parse_ply_header(bytes.bytes());
@@ -100,7 +100,7 @@ private:
                     for (const PlyProperty& property : element.properties)
                         skip(values_, property);
         } catch (const OutOfMemory&) {
-            throw; // of all its rows, not of this one
+            throw; // concerns the whole element, not this row
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(element.name + " " + std::to_string(row) + ": " + e.what());
         }
@@ -108,14 +108,14 @@ private:
 
     void read_vertices(const PlyElement& element, std::uint64_t& row) {
         if (!mesh_.positions.empty())
-            throw std::runtime_error("a second list of vertices is one too many");
+            throw std::runtime_error("there is a second list of vertices");
         const PlyLayout layout(element, "vertex_");
         if (!layout.has({Slot::x, Slot::y, Slot::z}))
-            throw std::runtime_error("there is no x, y and z");
+            throw std::runtime_error("x, y or z is missing");
         const bool has_normals = layout.has({Slot::nx, Slot::ny, Slot::nz});
         const bool has_uvs = layout.has({Slot::u, Slot::v});
         ask_for_memory(element.count *
-                           (2 * sizeof(glm::vec3) + // positions and normals: its own, or computed ones
+                           (2 * sizeof(glm::vec3) + // positions, and given or computed normals
                             (has_uvs ? sizeof(glm::vec2) : 0) + layout.attributes().size() * sizeof(Rgb)),
                        "its " + std::to_string(element.count) + " vertices");
         mesh_.positions.reserve(element.count);
@@ -136,7 +136,7 @@ private:
         }
     }
 
-    /// Room for the attributes of a layout; returns the place of the first.
+    /// Reserves the attributes of a layout. Returns the index of the first.
     std::size_t add_attributes(const PlyLayout& layout, std::size_t count) {
         const std::size_t first = mesh_.attributes.size();
         for (const PlyAttribute& attribute : layout.attributes())
@@ -159,7 +159,7 @@ private:
     }
 
     float decoded(float color, PlyType type) const {
-        const float largest = largest_color(type);
+        const float largest = full_intensity(type);
         const bool is_srgb = largest == 1 ? colors_.srgb_floats : colors_.srgb_bytes;
         return is_srgb ? srgb_to_linear(color / largest) : color / largest;
     }
@@ -180,7 +180,7 @@ private:
         const std::size_t first = add_attributes(layout, element.count);
         std::vector<float> numbers(element.properties.size());
         for (; row < element.count; ++row) {
-            const std::size_t before = mesh_.triangles.size();
+            const std::size_t first_triangle = mesh_.triangles.size();
             for (std::size_t i = 0; i < numbers.size(); ++i) {
                 const PlyProperty& property = element.properties[i];
                 if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
@@ -188,7 +188,7 @@ private:
                 else
                     read_number(property, layout.is_used(i), numbers[i]);
             }
-            fill_attributes(first, layout, element, numbers, mesh_.triangles.size() - before);
+            fill_attributes(first, layout, element, numbers, mesh_.triangles.size() - first_triangle);
         }
     }
 
@@ -209,11 +209,11 @@ private:
     std::uint32_t next_index(PlyType type) {
         const double index = values_.next(type);
         if (!(index >= 0) || index != std::floor(index) || index > std::numeric_limits<std::uint32_t>::max())
-            throw std::runtime_error("there can be no vertex " + std::to_string(index));
+            throw std::runtime_error(std::to_string(index) + " is not a vertex index");
         return static_cast<std::uint32_t>(index);
     }
 
-    /// Is called at the end, as faces may stand before the vertices.
+    /// Checks indices at the end, because faces may precede the vertices.
     void check_indices() const {
         for (const glm::uvec3& t : mesh_.triangles)
             for (int i = 0; i < 3; ++i)
@@ -222,7 +222,7 @@ private:
                                              ", but there are " + std::to_string(mesh_.positions.size()));
     }
 
-    /// Faces may stand in several lists.
+    /// Checks that attributes cover all faces, which may be in several elements.
     void check_attributes() const {
         for (const MeshAttribute& attribute : mesh_.attributes)
             if (attribute.is_of_faces() && attribute.values.size() != mesh_.triangles.size())

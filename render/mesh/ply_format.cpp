@@ -65,7 +65,7 @@ public:
             else if (words[0] == "property")
                 parse_property(words);
             else
-                fail("'" + std::string(words[0]) + "' is no word of a header");
+                fail("'" + std::string(words[0]) + "' is not a header keyword");
         }
         if (!has_format_)
             fail("the header names no format");
@@ -105,7 +105,7 @@ private:
     void parse_element(const std::vector<std::string_view>& words) {
         PlyElement element;
         if (words.size() != 3)
-            fail("an element has a name and a count");
+            fail("an element needs a name and a count");
         const char* const end = words[2].data() + words[2].size();
         const auto [read, error] = std::from_chars(words[2].data(), end, element.count);
         if (read != end || error != std::errc())
@@ -116,11 +116,11 @@ private:
 
     void parse_property(const std::vector<std::string_view>& words) {
         if (header_.elements.empty())
-            fail("a property stands before the first element");
+            fail("a property precedes the first element");
         PlyProperty property;
         property.is_list = words.size() == 5 && words[1] == "list";
         if (words.size() != 3 && !property.is_list)
-            fail("a property has a type and a name, or is a list of such");
+            fail("a property needs a type and a name, or 'list', two types and a name");
         if (property.is_list)
             property.count_type = parse_type(words[2]);
         property.type = parse_type(words[words.size() - 2]);
@@ -144,7 +144,7 @@ private:
     PlyHeader header_;
 };
 
-constexpr std::size_t longest_word = 4096; // bytes; a longer one is no number
+constexpr std::size_t max_word_length = 4096; // bytes; a longer one is no number
 
 } // namespace
 
@@ -196,14 +196,14 @@ void PlyValues::skip_white_space() {
 
 double PlyValues::next_word() {
     skip_white_space();
-    bytes_.fill(longest_word);
+    bytes_.fill(max_word_length);
     const std::string_view word = bytes_.bytes().substr(0, bytes_.bytes().find_first_of(white_space));
     double value = 0;
     const char* const end = word.data() + word.size();
     const auto [read, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
     if (read != end || error == std::errc::invalid_argument)
         throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a number");
-    if (error == std::errc::result_out_of_range) // as good as 0, or more than any number
+    if (error == std::errc::result_out_of_range) // underflow or overflow
         value = parse_number(word).value_or(std::numeric_limits<double>::infinity());
     bytes_.take(word.size());
     return value;

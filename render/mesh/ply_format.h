@@ -12,7 +12,7 @@ namespace tessera {
 enum class PlyFormat : std::uint8_t { ascii, little_endian, big_endian };
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// How many bytes a value has in the binary formats.
+/// Returns the size of a value in the binary formats, in bytes.
 std::size_t size_of(PlyType type);
 
 struct PlyProperty {
@@ -31,22 +31,22 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::size_t size = 0; ///< bytes, up to the first value
+    std::size_t size = 0; ///< bytes before the first value
 };
 
-/// Reads the header at the beginning of the bytes. Throws std::runtime_error with the line.
+/// Parses the header at the beginning of the bytes. Throws std::runtime_error with the line number.
 PlyHeader parse_ply_header(std::string_view bytes);
 
-/// The values after the header of a PLY file, one after another, as text or as bytes of either order.
+/// Reads the values after the header of a PLY file, as text or as binary of either byte order.
 class PlyValues {
 public:
     PlyValues(ByteWindow& bytes, PlyFormat format) : bytes_(bytes), format_(format) {}
 
     bool is_text() const { return format_ == PlyFormat::ascii; }
-    /// How many bytes are still to come.
+    /// Returns how many bytes are left.
     std::uint64_t left() const { return bytes_.left(); }
 
-    /// Takes one value. Throws std::runtime_error when there is none, or what is there is no number.
+    /// Takes one value. Throws std::runtime_error at the end, or if the text is not a number.
     double next(PlyType type);
 
 private:

@@ -7,10 +7,10 @@ namespace tessera {
 
 namespace {
 
-/// What the name of a property says: which attribute it belongs to, and which of its numbers it is.
-struct Part {
+/// Meaning of a property's name: its attribute, and its component of that attribute.
+struct Component {
     std::string attribute;            // without its prefix
-    std::optional<std::size_t> place; // empty: the next one, as they are counted
+    std::optional<std::size_t> place; // 0 to 2; empty: named by a number, next in file order
     bool is_color = false;
 };
 
@@ -24,7 +24,7 @@ std::optional<std::size_t> place_among(std::string_view name, const std::array<s
 constexpr std::array<std::string_view, 3> words = {"red", "green", "blue"}, letters = {"r", "g", "b"},
                                           axes = {"x", "y", "z"};
 
-std::optional<Part> part_of(const PlyProperty& property) {
+std::optional<Component> component_of(const PlyProperty& property) {
     constexpr std::string_view diffuse = "diffuse_";
     std::string_view name = property.name;
     if (property.is_list)
@@ -33,39 +33,39 @@ std::optional<Part> part_of(const PlyProperty& property) {
         name.remove_prefix(diffuse.size());
     for (const auto& names : {words, letters})
         if (const auto place = place_among(name, names))
-            return Part{"color", place, true};
+            return Component{"color", place, true};
     const std::size_t end = name.rfind('_');
     if (end == std::string_view::npos || end == 0 || end + 1 == name.size())
         return {};
     const std::string stem(name.substr(0, end));
     const std::string_view last = name.substr(end + 1);
     if (const auto place = place_among(last, letters))
-        return Part{stem + "_color", place, true};
+        return Component{stem + "_color", place, true};
     if (const auto place = place_among(last, axes))
-        return Part{stem, place};
+        return Component{stem, place};
     if (last.find_first_not_of("0123456789") == std::string_view::npos)
-        return Part{stem, {}, stem == "color"};
+        return Component{stem, {}, stem == "color"};
     return {};
 }
 
-/// An attribute while its numbers are found.
+/// An attribute whose components are being collected.
 struct Group {
-    Part first;
-    std::array<std::optional<std::size_t>, 3> properties; // by place
-    std::size_t count = 0;
+    Component first;
+    std::array<std::optional<std::size_t>, 3> properties; // by component
+    std::size_t count = 0;                                // components named by a number
 };
 
 std::vector<PlyAttribute> attributes_of(const PlyElement& element, std::string_view prefix) {
     std::vector<Group> groups;
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const std::optional<Part> part = part_of(element.properties[i]);
-        if (!part)
+        const std::optional<Component> component = component_of(element.properties[i]);
+        if (!component)
             continue;
         auto group = std::find_if(groups.begin(), groups.end(),
-                                  [&](const Group& g) { return g.first.attribute == part->attribute; });
+                                  [&](const Group& g) { return g.first.attribute == component->attribute; });
         if (group == groups.end())
-            group = groups.insert(group, {*part, {}, 0});
-        const std::size_t place = part->place ? *part->place : group->count++;
+            group = groups.insert(group, {*component, {}, 0});
+        const std::size_t place = component->place ? *component->place : group->count++;
         if (place < 3)
             group->properties[place] = i;
     }

@@ -12,32 +12,31 @@
 
 namespace tessera {
 
-/// An attribute that the rows of an element have (MeshAttribute), and where its numbers stand.
+/// A mesh attribute (MeshAttribute) in a PLY file, and the properties that hold its components.
 struct PlyAttribute {
     std::string name;
-    std::array<std::size_t, 3> properties{}; ///< of the element; for a single number three times the same
-    bool is_color = false;                   ///< coded as PlyColors says
+    std::array<std::size_t, 3> properties{}; ///< property indices; three times the same for one number
+    bool is_color = false;                   ///< whether PlyColors states its encoding
 };
 
-/// What is read of the vertices or faces of a PLY file: which of their properties mean what. The attributes are
-/// named as in Mitsuba 3:
-/// - red green blue, r g b, and these with diffuse_ before them: "color"
-/// - NAME_0 NAME_1 NAME_2, or counted from 1, or NAME_x NAME_y NAME_z: "NAME"
+/// Assigns meanings to the properties of a PLY file's vertices or faces. Attributes are named as in Mitsuba 3:
+/// - red green blue or r g b, with or without the prefix diffuse_: "color"
+/// - NAME_0 NAME_1 NAME_2 (or counted from 1), or NAME_x NAME_y NAME_z: "NAME"
 /// - NAME_r NAME_g NAME_b: "NAME_color"
 /// - NAME_0 alone: "NAME", one number
-/// Of more than three the first three are taken; lists, two numbers and all other properties are none.
+/// Of more than three numbers, the first three are used. Lists, pairs and all other properties are ignored.
 class PlyLayout {
 public:
-    /// What vertices have beside attributes.
+    /// Vertex properties that are not attributes.
     enum class Slot { x, y, z, nx, ny, nz, u, v, count };
 
-    /// `prefix` of the attributes' names is "vertex_" or "face_".
+    /// `prefix` of attribute names is "vertex_" or "face_".
     PlyLayout(const PlyElement& element, std::string_view prefix);
 
     const std::vector<PlyAttribute>& attributes() const { return attributes_; }
-    /// Whether anything is made of a property.
+    /// Returns whether a property is used.
     bool is_used(std::size_t property) const { return is_used_[property]; }
-    /// The property for a slot; empty: there is none.
+    /// Returns the index of the property for a slot; empty: there is none.
     std::optional<std::size_t> place(Slot slot) const { return places_[static_cast<std::size_t>(slot)]; }
     bool has(std::initializer_list<Slot> slots) const;
 

@@ -17,15 +17,15 @@
 
 namespace tessera {
 
-// The format as the documentation of Mitsuba's shape plugin "serialized" tells it: an uncompressed header, then
-// one zlib stream; several such, one after another; at the end of the file a table of where each begins.
+// The format is documented with Mitsuba's shape plugin "serialized". A mesh is an uncompressed header and one
+// zlib stream. A file holds several meshes in sequence, then a table of their offsets.
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file's byte order is read as it is");
+static_assert(std::endian::native == std::endian::little, "serialized files are little endian");
 
-constexpr std::uint16_t file_mark = 0x041C;
-constexpr std::uint64_t most_inflated = 1032; // bytes that DEFLATE can make of one [RFC 1951: 258 bytes in 2 bits]
+constexpr std::uint16_t file_signature = 0x041C;
+constexpr std::uint64_t max_inflation = 1032; // bytes per compressed byte [RFC 1951: 258 bytes in 2 bits]
 
 enum Flag : std::uint32_t {
     has_normals = 0x0001,
@@ -44,7 +44,7 @@ T read_raw(std::istream& stream) {
 }
 
 std::uint16_t read_version(std::istream& stream) {
-    if (read_raw<std::uint16_t>(stream) != file_mark)
+    if (read_raw<std::uint16_t>(stream) != file_signature)
         throw std::runtime_error("this is not a file of serialized meshes");
     const auto version = read_raw<std::uint16_t>(stream);
     if (version != 3 && version != 4)
@@ -53,7 +53,7 @@ std::uint16_t read_version(std::istream& stream) {
     return version;
 }
 
-/// Leaves the stream at the first compressed byte of the mesh. Returns the version.
+/// Seeks to the first compressed byte of the mesh. Returns the format version.
 std::uint16_t seek_mesh(std::istream& stream, std::uint64_t size, int index) {
     stream.seekg(0);
     const std::uint16_t version = read_version(stream);
@@ -78,41 +78,42 @@ std::uint16_t seek_mesh(std::istream& stream, std::uint64_t size, int index) {
     return read_version(stream);
 }
 
-/// Reads rows of numbers in blocks, so that a file that ends too early takes no memory for the rest.
+/// Reads rows of numbers in blocks and converts them to float. Throws std::runtime_error for numbers that are
+/// not finite.
 class Rows {
 public:
     Rows(ZlibReader& zlib, bool doubles) : zlib_(zlib), doubles_(doubles) {}
 
     template <class Vector>
-    void read(std::vector<Vector>& rows, std::uint64_t count, const char* what) {
+    void read(std::vector<Vector>& rows, std::uint64_t count, const char* name) {
         if (doubles_)
-            read_as<double>(rows, count, what);
+            read_as<double>(rows, count, name);
         else
-            read_as<float>(rows, count, what);
+            read_as<float>(rows, count, name);
     }
 
 private:
     template <class Number, class Vector>
-    void read_as(std::vector<Vector>& rows, std::uint64_t count, const char* what) {
+    void read_as(std::vector<Vector>& rows, std::uint64_t count, const char* name) {
         constexpr std::size_t width = sizeof(Vector) / sizeof(float);
         constexpr std::size_t block = 1024; // rows
         std::array<Number, width * block> numbers;
         rows.reserve(count);
         while (rows.size() < count) {
-            const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(block, count - rows.size()));
-            zlib_.read(numbers.data(), now * width * sizeof(Number));
-            for (std::size_t i = 0; i < now; ++i) {
+            const auto chunk = static_cast<std::size_t>(std::min<std::uint64_t>(block, count - rows.size()));
+            zlib_.read(numbers.data(), chunk * width * sizeof(Number));
+            for (std::size_t i = 0; i < chunk; ++i) {
                 Vector row;
                 for (std::size_t j = 0; j < width; ++j)
-                    row[static_cast<int>(j)] = to_float(numbers[i * width + j], rows.size(), what);
+                    row[static_cast<int>(j)] = to_float(numbers[i * width + j], rows.size(), name);
                 rows.push_back(row);
             }
         }
     }
 
-    static float to_float(double number, std::size_t row, const char* what) {
+    static float to_float(double number, std::size_t row, const char* name) {
         if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max())))
-            throw std::runtime_error(std::string(what) + " " + std::to_string(row) + " is not finite");
+            throw std::runtime_error(std::string(name) + " " + std::to_string(row) + " is not finite");
         return static_cast<float>(number);
     }
 
@@ -125,9 +126,9 @@ void read_triangles(ZlibReader& zlib, Mesh& mesh, std::uint64_t count) {
     std::array<glm::uvec3, block> triangles;
     mesh.triangles.reserve(count);
     while (mesh.triangles.size() < count) {
-        const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(block, count - mesh.triangles.size()));
-        zlib.read(triangles.data(), now * sizeof(glm::uvec3));
-        for (std::size_t i = 0; i < now; ++i) {
+        const auto chunk = static_cast<std::size_t>(std::min<std::uint64_t>(block, count - mesh.triangles.size()));
+        zlib.read(triangles.data(), chunk * sizeof(glm::uvec3));
+        for (std::size_t i = 0; i < chunk; ++i) {
             for (int j = 0; j < 3; ++j)
                 if (triangles[i][j] >= mesh.positions.size())
                     throw std::runtime_error("triangle " + std::to_string(mesh.triangles.size()) +
@@ -138,12 +139,13 @@ void read_triangles(ZlibReader& zlib, Mesh& mesh, std::uint64_t count) {
     }
 }
 
-/// A file must be able to hold what it promises, before any memory is set aside for it.
+/// Throws std::runtime_error if a file of `size` bytes cannot hold the declared counts. Call it before
+/// allocating.
 void check_counts(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t vertex_bytes,
                   std::uint64_t size) {
-    const std::uint64_t most = size * most_inflated;
-    if (vertices > most / vertex_bytes || triangles > most / sizeof(glm::uvec3))
-        throw std::runtime_error("the file promises " + std::to_string(vertices) + " vertices and " +
+    const std::uint64_t largest = size * max_inflation;
+    if (vertices > largest / vertex_bytes || triangles > largest / sizeof(glm::uvec3))
+        throw std::runtime_error("the file declares " + std::to_string(vertices) + " vertices and " +
                                  std::to_string(triangles) + " triangles, but is too short for them");
     if (vertices >= std::numeric_limits<std::uint32_t>::max())
         throw std::runtime_error("there are too many vertices");

@@ -18,7 +18,7 @@ Mesh make_rectangle() {
 }
 
 Mesh make_cube() {
-    // A face by its corner at uv (0, 1), and the ways from there along u and against v.
+    // A face, given by its corner at uv (0, 1) and the edges from there along +u and -v.
     struct Face {
         glm::vec3 corner, along_u, against_v;
     };
@@ -42,9 +42,9 @@ Mesh make_cube() {
 
 namespace {
 
-constexpr unsigned segments = 256; // of circles
-// A triangle's middle is about step^2 / 4 below the sphere through its corners; half of that stays after scaling
-// to the exact area.
+constexpr unsigned segments = 256; // of disk and cylinder; not tuned
+// A triangle's centre is about step^2 / 4 below the sphere through its corners; half of that remains after
+// scaling to the exact area. See make_sphere() for the resulting error.
 constexpr unsigned sphere_rings = 96;
 constexpr unsigned sphere_segments = 2 * sphere_rings;
 
@@ -73,12 +73,12 @@ void add_vertex(Mesh& mesh, glm::dvec3 position, glm::dvec2 uv) {
 
 Mesh make_sphere() {
     Mesh mesh;
-    const unsigned row = sphere_segments + 1; // the seam twice, once at u = 0 and once at u = 1
+    const unsigned row = sphere_segments + 1; // the seam has vertices at u = 0 and at u = 1
     for (unsigned i = 0; i <= sphere_rings; ++i)
         for (unsigned j = 0; j < row; ++j) {
             const bool is_pole = i == 0 || i == sphere_rings;
             const double v = static_cast<double>(i) / sphere_rings;
-            const double u = (j + (is_pole ? 0.5 : 0.0)) / sphere_segments; // every triangle has a pole of its own
+            const double u = (j + (is_pole ? 0.5 : 0.0)) / sphere_segments; // one pole vertex per triangle
             const double sine = is_pole ? 0 : std::sin(pi_d * v);
             add_vertex(mesh, {sine * on_circle(u), std::cos(pi_d * v)}, {u, v});
         }
@@ -101,7 +101,7 @@ Mesh make_sphere() {
 Mesh make_disk() {
     Mesh mesh;
     const double step = 2 * pi_d / segments;
-    const double rim = std::sqrt(step / std::sin(step)); // the polygon has an area of pi
+    const double rim = std::sqrt(step / std::sin(step)); // gives the polygon the area pi
     for (unsigned j = 0; j <= segments; ++j) {
         const double v = static_cast<double>(j) / segments;
         add_vertex(mesh, {rim * on_circle(v), 0}, {1, v});
@@ -116,7 +116,7 @@ Mesh make_disk() {
 Mesh make_cylinder() {
     Mesh mesh;
     const double half_step = pi_d / segments;
-    const double rim = half_step / std::sin(half_step); // the polygon has a perimeter of 2 pi
+    const double rim = half_step / std::sin(half_step); // gives the polygon the perimeter 2 pi
     for (unsigned j = 0; j <= segments; ++j) {
         const double u = static_cast<double>(j) / segments;
         for (const double z : {0.0, 1.0}) {

@@ -17,7 +17,7 @@ namespace tessera {
 
 namespace {
 
-/// Corners of triangles, joined into groups that share a normal. Corner 3 i + j is that at triangles[i][j].
+/// Disjoint sets of triangle corners that share a normal. Corner 3 i + j is triangles[i][j].
 class Groups {
 public:
     explicit Groups(std::size_t count) : parent_(count) {
@@ -38,7 +38,7 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-/// A number for each place: vertices that lie in one place have the same, whatever else differs at them.
+/// Returns a number for each vertex that is equal for vertices at the same position.
 std::vector<std::uint32_t> places_of(const Mesh& mesh) {
     std::vector<std::uint32_t> order(mesh.positions.size()), place(mesh.positions.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> places_of(const Mesh& mesh) {
     return place;
 }
 
-/// 0 for a triangle without area.
+/// Returns the unit normal of a triangle; 0 if it has no area.
 glm::vec3 face_normal(const Mesh& mesh, glm::uvec3 t) {
     const glm::dvec3 corner = mesh.positions[t.x];
     const glm::dvec3 cross =
@@ -65,7 +65,7 @@ glm::vec3 face_normal(const Mesh& mesh, glm::uvec3 t) {
 
 /// One end of an edge of a triangle.
 struct EdgeEnd {
-    std::uint32_t place, other; // of this end, and of the edge's other end
+    std::uint32_t place, other; // places (see places_of) of this end and of the other end
     std::size_t corner;
 };
 
@@ -81,9 +81,9 @@ std::vector<EdgeEnd> edge_ends_of(const Mesh& mesh, const std::vector<std::uint3
     return ends;
 }
 
-/// Joins the corners on both sides of each edge that is no sharper than the angle.
+/// Joins corners across each edge whose face normals differ by at most the angle (degrees).
 Groups smooth_groups(const Mesh& mesh, float max_angle) {
-    const float least_cos = std::cos(glm::radians(max_angle));
+    const float min_cos = std::cos(glm::radians(max_angle));
     Groups groups(3 * mesh.triangles.size());
     const std::vector<EdgeEnd> ends = edge_ends_of(mesh, places_of(mesh));
     for (std::size_t i = 1; i < ends.size(); ++i) {
@@ -92,13 +92,13 @@ Groups smooth_groups(const Mesh& mesh, float max_angle) {
             continue;
         const glm::vec3 normal_a = face_normal(mesh, mesh.triangles[a.corner / 3]),
                         normal_b = face_normal(mesh, mesh.triangles[b.corner / 3]);
-        if (glm::dot(normal_a, normal_b) >= least_cos)
+        if (glm::dot(normal_a, normal_b) >= min_cos)
             groups.join(a.corner, b.corner);
     }
     return groups;
 }
 
-/// Gives every group its own copies of the vertices that it shares with others.
+/// Gives every group its own copy of each vertex that several groups use.
 void split_vertices(Mesh& mesh, Groups& groups) {
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::tuple<std::uint32_t, std::size_t, std::size_t>> uses; // vertex, group, corner
@@ -109,13 +109,13 @@ void split_vertices(Mesh& mesh, Groups& groups) {
         if (!values.empty())
             values.push_back(values[i]);
     };
-    std::uint32_t vertex = none, copied = none;
+    std::uint32_t vertex = none, target = none;
     std::size_t group = 0;
     for (const auto& [from, of, corner] : uses) {
-        if (from != vertex) { // the first group keeps the vertex
-            copied = from;
+        if (from != vertex) { // the first group keeps the original
+            target = from;
         } else if (of != group) {
-            copied = static_cast<std::uint32_t>(mesh.positions.size());
+            target = static_cast<std::uint32_t>(mesh.positions.size());
             copy(mesh.positions, from);
             copy(mesh.uvs, from);
             for (MeshAttribute& attribute : mesh.attributes)
@@ -124,7 +124,7 @@ void split_vertices(Mesh& mesh, Groups& groups) {
         }
         vertex = from;
         group = of;
-        mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = copied;
+        mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = target;
     }
 }
 
@@ -134,7 +134,8 @@ void smooth_normals(Mesh& mesh, float max_angle) {
     Groups groups = smooth_groups(mesh, max_angle);
     mesh.normals.clear();
     split_vertices(mesh, groups);
-    // Vertices of one group in one place, as along a seam of texture coordinates, have one normal together.
+    // Vertices of one group, as along a seam of texture coordinates, share a normal. So normals are computed on
+    // a mesh with one vertex per group.
     Mesh joined;
     joined.positions.resize(3 * mesh.triangles.size());
     joined.triangles.resize(mesh.triangles.size());

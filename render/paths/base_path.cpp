@@ -17,8 +17,8 @@
 //   and q. It excludes: the camera ray, which has weight 1; the MIS weight of the last step, which is a factor of
 //   LightSample::brings and BaseVertex::hit_brings; Russian roulette on reuse, whose weight 1/q PathReuse::share()
 //   applies; and division by the albedo of x_1 (demodulation), which Pass::albedo_of() and coefficient() do.
-// A light sample at x_i is not subject to the roulette at x_i: only the next step from x_i is. So its contribution
-// is the throughput of x_1 to x_{i-1} times LightSample::brings.
+// The roulette at x_i decides on the next step only, not on the light sample at x_i. So the contribution of that
+// sample is the throughput of x_1 to x_{i-1} times LightSample::brings.
 
 namespace tessera {
 
@@ -56,7 +56,7 @@ bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int
     const BsdfValue b = x.evaluate(drawn.to_light);
     if (is_black(b.f_cos))
         return false;
-    // The balance heuristic against BSDF sampling [Veach 1997, 9.2.2].
+    // The balance heuristic of emitter and BSDF sampling, METHODS (3) and (4) [Veach 1997, 9.2.2].
     drawn.f_cos = b.f_cos;
     drawn.pdf_w = seen->pdf_w;
     drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
@@ -79,8 +79,8 @@ void sample_light(const Tracer& tracer, int index, RayKind kind, BasePath& path)
         complete_light(tracer, drawn);
 }
 
-/// Stores the radiance of an emitter that BSDF sampling at v hits, with its MIS weight.
-/// @param pdf_w  of emitter sampling
+/// Stores the radiance of an emitter that BSDF sampling at v hits, with its MIS weight, METHODS (3) and (4).
+/// @param pdf_w  of emitter sampling, per solid angle
 void add_hit(BaseVertex& v, Rgb radiance, float pdf_w) {
     v.hit_pdf_w = v.is_delta || is_black(radiance) ? 0 : pdf_w;
     v.hit_brings = radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
@@ -269,6 +269,7 @@ void replay_base_path(const Tracer& tracer, const BasePath& seen, const Random& 
                  {RayKind::shift_bounce, RayKind::shift_edge}, path);
 }
 
+/// Applies the join rule to the step from a vertex. @param apart  s_i of the vertex
 LightPaths::Step LightPaths::step_from(const BasePath& path, const JoinRule& rule, int vertex, float apart) const {
     const BaseVertex& v = path[vertex];
     const float roughness = v.is_delta ? 0 : v.vertex.bsdf.roughness();

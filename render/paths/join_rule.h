@@ -6,14 +6,14 @@
 
 namespace tessera {
 
-/// When offsets may be joined to a base path, as seen from one of the two ways. Base and offset are asked alike,
-/// and must agree, or a shift would not be its own inverse.
+/// Decides which edges shifts connect, METHODS (16) to (18). Base path and offset path each apply the rule to
+/// their own edge. A shift fails where they disagree, because it would not be its own inverse.
 ///
-/// While a join holds x_{i+1}, the offset's y_i lies elsewhere on the tile: `apart` is how far, the footprint of
-/// so many pixels, which grows along the path as they would part at mirrors. Seen from x_{i+1} the edge turns by
-/// apart / d. At x_i the lobe turns, too, as the direction from which it is seen does: what a mirror there would
-/// show at x_{i+1} moves by the footprint at that end, and so the turn is (apart + spread d) / d. Lobes narrower
-/// than that are missed by nearly all offsets, whose half vectors are copied instead.
+/// A connection keeps x_{i+1}, while the offset vertex y_i is at a distance of about s_i from x_i. s_i (`apart`)
+/// is the footprint of shift_distance pixels; it grows along the path as after flat mirrors [Suykens 2001]. Seen
+/// from x_{i+1}, the edge of length d turns by s_i / d. At x_i the lobe turns as well, so edge and lobe turn
+/// against each other by s_{i+1} / d = s_i / d + spread. Most offset paths would miss a narrower lobe; the shift
+/// copies half vectors there.
 class JoinRule {
 public:
     /// @param pixel_angle  BasePath::pixel_angle
@@ -22,39 +22,41 @@ public:
           pixels_(settings.shift == ShiftKind::reconnection ? 0 : settings.shift_distance),
           spread_(pixels_ * pixel_angle) {}
 
-    /// Of vertices x_1. @param pixel_width  BasePath::pixel_width
+    /// Returns s_1, METHODS (16), in scene units. @param pixel_width  BasePath::pixel_width
     float apart(float pixel_width) const { return pixels_ * pixel_width; }
-    /// At the end of an edge, by how far apart they were at its beginning.
+    /// Returns s_{i+1}, METHODS (16). @param before  s_i
     float apart(float before, float distance) const { return before + spread_ * distance; }
 
-    /// How far x_i's lobe is turned against the edge, in radians; the distance may be infinite.
+    /// Returns s_{i+1} / d, the angle in radians by which x_i's lobe turns against the edge. The distance may be
+    /// infinite.
     float turn(float apart, float distance) const { return apart / distance + spread_; }
 
-    /// Whether a lobe is wide enough for that turn. Light that x_{i+1} itself gives is joined to at any length:
-    /// one that is not narrow turns far with it.
+    /// Returns whether a lobe is wide enough for the turn, METHODS (17). The limit of 1 radian lets wide lobes
+    /// connect edges of any length.
     bool covers(float roughness, float turn) const {
         return roughness > threshold_ && roughness >= roughness_a_turn * std::min(turn, 1.0f);
     }
+    /// Returns whether covers() holds for all turns.
     bool covers_all(float roughness) const { return roughness > threshold_ && roughness >= roughness_a_turn; }
+    /// Returns whether covers() holds for no turn; the smallest one is spread_.
     bool covers_none(float roughness) const { return !covers(roughness, spread_); }
 
-    /// Whether light from beyond x_{i+1} is, by that end of the edge: what a vertex sees close by, as in a corner,
-    /// looks quite different from another pixel's vertex, and what x_{i+1} reflects must reach it. The light would
-    /// stay with the base.
+    /// Returns whether light from beyond x_{i+1} can use the connection, METHODS (18). Close surfaces, as in a
+    /// corner, look very different from y_i than from x_i, so the edge must have the length s_i. The lobe of
+    /// x_{i+1} must cover the turn at its end.
     /// @param roughness  of x_{i+1}
     bool reaches_beyond(float roughness, float apart, float distance) const {
         return distance >= apart && covers(roughness, apart / distance);
     }
 
 private:
-    /// Angle of a lobe, in radians, for a roughness of 1; it includes a part of the tail. 8 and 16 have the same
-    /// error, 2 and 4 a larger one on glossy surfaces (TRIALS.md, "Which edges are joined").
+    /// Angle of a lobe of roughness 1, with a part of its tail, in radians (TRIALS.md, "Which edges are joined").
     static constexpr float lobe_of_roughness = 8;
     static constexpr float roughness_a_turn = 1 / lobe_of_roughness;
 
     float threshold_;
-    float pixels_; ///< across which paths are shared
-    float spread_; ///< the same, as an angle
+    float pixels_; ///< distance of pixels that reuse each other's paths, in pixels
+    float spread_; ///< the same distance as an angle, radians
 };
 
 } // namespace tessera

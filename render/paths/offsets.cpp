@@ -8,7 +8,7 @@ namespace tessera {
 
 namespace {
 
-/// The diffuse BSDF, if it is that and nothing has bent the frame; null: another one.
+/// Returns the BSDF if it is diffuse and no bump or normal map bends its frame, else null.
 const Diffuse* plain_diffuse(const Bsdf& bsdf) {
     return bsdf.is_bent() ? nullptr : std::get_if<Diffuse>(&bsdf.kind);
 }
@@ -20,7 +20,7 @@ void OffsetVertices::reset(int count) {
     vertices_.assign(static_cast<std::size_t>(count), nullptr);
     for (int m = 0; m < padded(count); ++m)
         exists[m] = 0;
-    others_.clear();
+    not_diffuse_.clear();
     guided_.clear();
 }
 
@@ -35,12 +35,12 @@ void OffsetVertices::set(int lane, const Vertex& v) {
     if (const Diffuse* diffuse = plain_diffuse(v.bsdf))
         reflectance_.set(lane, diffuse->reflectance);
     else
-        others_.push_back(lane);
+        not_diffuse_.push_back(lane);
     if (v.guide)
         guided_.push_back(lane);
 }
 
-void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& asked, BsdfLanes& values) const {
+void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& lanes, BsdfLanes& values) const {
     for (int m = 0; m < padded(count_); ++m) { // Diffuse::evaluate
         const float z = to_next.x[m] * normal_.x[m] + to_next.y[m] * normal_.y[m] + to_next.z[m] * normal_.z[m];
         const float pdf_w = to_previous_z_[m] > 0 && z > 0 ? z * inv_pi : 0.0f;
@@ -49,8 +49,8 @@ void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& asked, B
         values.f_cos.y[m] = reflectance_.y[m] * pdf_w;
         values.f_cos.z[m] = reflectance_.z[m] * pdf_w;
     }
-    for (int m : others_) {
-        if (!asked[m])
+    for (int m : not_diffuse_) {
+        if (!lanes[m])
             continue;
         const Vertex& y = *vertices_[m];
         const BsdfValue v = y.bsdf.evaluate(y.to_previous, y.to_local(to_next[m]));
@@ -58,16 +58,16 @@ void OffsetVertices::evaluate(const Vec3Lanes& to_next, const LaneMask& asked, B
         values.f_cos.set(m, v.f_cos);
     }
     for (int m : guided_)
-        if (asked[m])
+        if (lanes[m])
             values.pdf_w[m] = vertices_[m]->guided_pdf_w(values.pdf_w[m], to_next[m]);
 }
 
 namespace {
 
-void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
+void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& lanes, int count,
               BsdfLanes& values) {
     if (const Diffuse* diffuse = plain_diffuse(bsdf)) {
-        const BsdfValue lit = diffuse->evaluate({0, 0, 1}, to_next); // the same from everywhere above
+        const BsdfValue lit = diffuse->evaluate({0, 0, 1}, to_next); // the same for all to_previous.z > 0
         for (int m = 0; m < padded(count); ++m) {
             const bool above = to_previous.z[m] > 0;
             values.pdf_w[m] = above ? lit.pdf_w : 0.0f;
@@ -78,7 +78,7 @@ void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next,
         return;
     }
     for (int m = 0; m < count; ++m) {
-        if (!asked[m])
+        if (!lanes[m])
             continue;
         const BsdfValue v = bsdf.evaluate(to_previous[m], to_next);
         values.pdf_w[m] = v.pdf_w;
@@ -88,12 +88,12 @@ void evaluate(const Bsdf& bsdf, const Vec3Lanes& to_previous, glm::vec3 to_next,
 
 } // namespace
 
-void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
+void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& lanes, int count,
               BsdfLanes& values) {
-    evaluate(x.bsdf, to_previous, to_next, asked, count, values);
+    evaluate(x.bsdf, to_previous, to_next, lanes, count, values);
     if (!x.guide)
         return;
-    const float guided = x.guided_pdf_w(0, x.to_world(to_next)); // from wherever it is seen
+    const float guided = x.guided_pdf_w(0, x.to_world(to_next)); // does not depend on to_previous
     for (int m = 0; m < padded(count); ++m)
         values.pdf_w[m] = (1 - x.guide->share) * values.pdf_w[m] + guided;
 }
@@ -106,7 +106,7 @@ FirstScatter& OffsetPaths::add_first_scatter(int first_slot, int end_slot) {
     return *scatters_[used_scatters_++];
 }
 
-void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 point, glm::vec3 normal,
+void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 point, glm::vec3 normal,
                       bool one_sided, SightLanes& sight) {
     for (int m = 0; m < padded(y.count()); ++m) {
         const float dx = point.x - y.position.x[m], dy = point.y - y.position.y[m], dz = point.z - y.position.z[m];
@@ -119,14 +119,14 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 
         sight.direction.z[m] = dz * scale;
         sight.geometry[m] = geometry;
         sight.distance2[m] = distance2;
-        sight.valid[m] = (geometry > 0) & (distance2 > 0) ? asked[m] : 0;
+        sight.valid[m] = (geometry > 0) & (distance2 > 0) ? lanes[m] : 0;
     }
 }
 
-void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const LightPoint& light, SightLanes& sight,
+void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light, SightLanes& sight,
                       LightLanes& arriving) {
     if (light.kind == LightPoint::Kind::surface) {
-        connect_to_point(y, asked, light.position, light.normal, true, sight);
+        connect_to_point(y, lanes, light.position, light.normal, true, sight);
         for (int m = 0; m < padded(y.count()); ++m) {
             arriving.pdf_w[m] = light.pdf / sight.geometry[m];
             arriving.radiance.x[m] = light.radiance.x;
@@ -138,7 +138,7 @@ void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const Ligh
     for (int m = 0; m < padded(y.count()); ++m)
         sight.valid[m] = 0;
     for (int m = 0; m < y.count(); ++m) {
-        if (!asked[m])
+        if (!lanes[m])
             continue;
         const float distance = light.distance_from(y.position[m]);
         sight.distance2[m] = distance * distance;

@@ -10,18 +10,18 @@
 
 namespace tessera {
 
-/// f cos and pdf_w of one scattering in every lane.
+/// f cos and pdf per solid angle of one scatter in every lane.
 struct BsdfLanes {
     Vec3Lanes f_cos;
     FloatLanes pdf_w;
 };
 
-/// Vertices of offset paths side by side, a lane a pixel of the sampling set.
+/// Vertices of offset paths, one lane for each pixel of the sampling set.
 class OffsetVertices {
 public:
-    /// `count` lanes, all without a vertex.
+    /// Sets the number of lanes, and removes all vertices.
     void reset(int count);
-    /// Keeps a reference.
+    /// Sets the vertex of a lane. Keeps a reference to it.
     void set(int lane, const Vertex& vertex);
 
     int count() const { return count_; }
@@ -32,38 +32,37 @@ public:
     Vec3Lanes geometric_normal;
     FloatLanes roughness;
 
-    /// Vertex::evaluate() for light that arrives along unit directions (world); lanes that are not asked for hold
-    /// anything.
-    void evaluate(const Vec3Lanes& to_next, const LaneMask& asked, BsdfLanes& values) const;
+    /// Evaluates Vertex::evaluate() for unit directions (world). Results in other than the given lanes are
+    /// undefined.
+    void evaluate(const Vec3Lanes& to_next, const LaneMask& lanes, BsdfLanes& values) const;
 
 private:
     int count_ = 0;
     std::vector<const Vertex*> vertices_;
-    Vec3Lanes normal_; // of shading
+    Vec3Lanes normal_; // shading normal
     FloatLanes to_previous_z_;
-    Vec3Lanes reflectance_;   // of diffuse ones
-    std::vector<int> others_; // lanes that are not diffuse
-    std::vector<int> guided_; // lanes whose vertices have a guide
+    Vec3Lanes reflectance_;        // of diffuse vertices
+    std::vector<int> not_diffuse_; // lanes
+    std::vector<int> guided_;      // lanes whose vertices have a guide
 };
 
-/// The BSDF of one vertex, in many lanes: light that arrives along `to_next` leaves along unit directions
-/// `to_previous`, all in its frame. Each pdf is Vertex::evaluate()'s.
-void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& asked, int count,
+/// Evaluates the BSDF of one vertex as seen from many directions, with pdfs as in Vertex::evaluate(). Results in
+/// other than the given lanes are undefined.
+/// @param to_previous, to_next  unit, in the frame of x
+void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& lanes, int count,
               BsdfLanes& values);
 
-/// What became of one light path x of a base path of pixel k in each offset pixel m, a lane a pixel
-/// (METHODS.md, "The weight"):
-///   ratio = r_m = P_m(y_m) |J| / P_k(x), where y_m is the shifted path, P the density with which a pixel's
-///   samplers
-///           make a path, summed over strategies, and J the shift's Jacobian; no unit, 0: the shift failed
-///   value = c_m = f_m(y_m) |J| / P_k(x), radiance; divided by the survival of the roulette on path length
-/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. The base's own ratio is 1, and not in its lane, which stays 0.
+/// One light path x of pixel k, shifted to every pixel m of T, one lane for each pixel, METHODS (5) to (7):
+///   ratio = r_m = P_m(y_m) |J| / P_k(x)   no unit; 0: the shift failed
+///   value = c_m = f_m(y_m) |J| / P_k(x)   radiance, divided by the survival of roulette on path length
+/// y_m is the shifted path, P the sum of the densities of all strategies, and J the Jacobian of the shift
+/// [Bekaert 2002, 4; Bauszat 2017, eq. 8]. The lane of k itself stays 0, although r_k is 1.
 struct OffsetRow {
     FloatLanes ratio;
     Vec3Lanes value;
 
-    /// A path that carries nothing counts as failed: the same is said of base paths, so that both sides agree. So
-    /// does one that is beyond what floats hold.
+    /// Stores r_m and c_m. A shift to a path without radiance counts as failed, as base paths without radiance
+    /// are not shifted. A shift with values beyond the range of floats fails, too.
     void set(int m, float new_ratio, Rgb new_value) {
         constexpr float largest = 3e38f; // a NaN fails every comparison
         const bool is_lit = (new_value.r > 0) | (new_value.g > 0) | (new_value.b > 0);
@@ -80,7 +79,7 @@ struct OffsetRow {
     }
 };
 
-/// How offset paths leave y_1, a lane a pixel; anything where the path fails.
+/// The scatter of offset paths at y_1, one lane for each pixel; undefined where the shift fails.
 struct FirstScatter {
     static constexpr float infinite = std::numeric_limits<float>::infinity();
 
@@ -88,11 +87,11 @@ struct FirstScatter {
     Vec3Lanes f_cos;     ///< infinite: a delta scatter
 };
 
-/// The rows of all light paths, as slots (LightPaths).
+/// The rows of all light paths, by slot (LightPaths).
 class OffsetPaths {
 public:
-    /// All have failed as yet.
-    /// @param keeps_scatters  whether anybody wants to know of first_scatter()
+    /// Sets the numbers of slots and pixels. All shifts count as failed until their rows are set.
+    /// @param keeps_scatters  stores first scatters, which basis components need
     void reset(int slots, int offsets, bool keeps_scatters = false) {
         offsets_ = offsets;
         used_scatters_ = 0;
@@ -111,10 +110,10 @@ public:
     Rgb value(int slot, int m) const { return row(slot).value[m]; }
 
     bool keeps_scatters() const { return !scatter_of_slot_.empty(); }
-    /// The scatter at y_1 that those of the slots [first, end) have which have none yet; to be filled in. Only
-    /// where scatters are kept.
+    /// Returns a new scatter, for the caller to fill in. It becomes the first scatter of the slots in
+    /// [first_slot, end_slot) that have none. Requires keeps_scatters().
     FirstScatter& add_first_scatter(int first_slot, int end_slot);
-    /// Which first scatter the slot goes through; -1: none is known.
+    /// Returns the index of a slot's first scatter; -1: none.
     int scatter_index(int slot) const { return scatter_of_slot_[slot]; }
     const FirstScatter& first_scatter(int index) const { return *scatters_[index]; }
 
@@ -126,38 +125,38 @@ private:
     int used_scatters_ = 0;
 };
 
-/// How the vertices of offset paths see one point that they are joined to, a lane a pixel.
+/// Geometry of the connections from offset vertices to one point, one lane for each pixel.
 struct SightLanes {
-    LaneMask valid;       ///< asked for, and the point is to be seen from the right side
+    LaneMask valid;       ///< the lane is requested, and the vertex lies on the right side of the point
     Vec3Lanes direction;  ///< unit, world, toward the point
-    FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area
-    FloatLanes distance2; ///< squared, to the point; infinite for directions
+    FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area, METHODS (14)
+    FloatLanes distance2; ///< squared distance to the point; infinite for directions
 };
 
-/// Joins vertices to a point on a surface.
+/// Connects vertices to a point on a surface, without visibility.
 /// @param one_sided  only from the side of `normal`
-void connect_to_point(const OffsetVertices& y, const LaneMask& asked, glm::vec3 point, glm::vec3 normal,
+void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 point, glm::vec3 normal,
                       bool one_sided, SightLanes& sight);
 
-/// What arrives at the vertices from a point on a light, a lane a pixel.
+/// Light from a point on a light at offset vertices, one lane for each pixel.
 struct LightLanes {
     Vec3Lanes radiance;
-    FloatLanes pdf_w; ///< of emitter sampling there (LightRay::pdf_w)
+    FloatLanes pdf_w; ///< of emitter sampling, per solid angle at the vertex (LightRay::pdf_w)
 };
 
-/// Joins vertices to a point on a light, or at infinity to a direction.
-void connect_to_light(const OffsetVertices& y, const LaneMask& asked, const LightPoint& light, SightLanes& sight,
+/// Connects vertices to a point on a light, or to a direction at infinity, without visibility.
+void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light, SightLanes& sight,
                       LightLanes& arriving);
 
-/// Sets the stretches from vertices to a point on a surface, which lies in the unit directions `direction`.
+/// Sets the segments from vertices to a point on a surface. @param direction  unit, from each vertex to the point
 void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction, glm::vec3 point,
                     glm::vec3 normal, SegmentLanes& segments);
-/// Sets the stretches from vertices to a light, which may be at infinity.
+/// Sets the segments from vertices to a light, which may be at infinity.
 void edges_to_light(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction,
                     const LightPoint& light, SegmentLanes& segments);
 
-/// New edges of offset paths, a lane a pixel, that may be blocked. They all end in the same point, a light
-/// (perhaps at infinity) or a base vertex, so that their rays are traced together; a blocked one fails the slots
+/// New edges of offset paths, one lane for each pixel, whose visibility is not yet known. They end in one point,
+/// a light (perhaps at infinity) or a base vertex, so they are traced together. An occluded edge fails the slots
 /// [first_slot, end_slot).
 struct EdgeGroup {
     SegmentLanes segments;
@@ -165,12 +164,12 @@ struct EdgeGroup {
     int first_slot, end_slot;
 };
 
-/// The edges of all shifts of a base path.
+/// The new edges of all shifts of a base path.
 class PendingEdges {
 public:
     void reset(int offsets);
 
-    /// A group to be filled in: none exists as yet.
+    /// Returns a new group without edges, for the caller to fill in.
     EdgeGroup& add(int first_slot, int end_slot);
 
     /// Traces all edges. Fails the slots of occluded edges, and marks their lanes in `lost`.

@@ -15,22 +15,22 @@
 
 namespace tessera {
 
-/// A distribution of directions: a square of bins, which is the sphere by way of an octahedron [Cigolle 2014], and
-/// an alias table over them. All probabilities are whole numbers of the same small unit, so that what is drawn and
-/// what its pdf says are the same to the last bit.
+/// Piecewise constant distribution of directions. Its bins form a square, which an octahedron maps to the sphere
+/// [Cigolle 2014]; an alias table chooses a bin. All probabilities are multiples of one unit, so sample() and
+/// pdf_w() agree exactly.
 class DirectionMap {
 public:
     static constexpr int edge = 16, bins = edge * edge;
     using Shares = std::array<float, bins>;
 
-    /// @param shares  not negative; they add up to 1
+    /// @param shares  probability of each bin, at least 0; the sum is 1
     explicit DirectionMap(const Shares& shares);
 
     struct Sample {
         glm::vec3 direction; ///< unit, world
         float pdf_w;
     };
-    /// @param choice, u  uniform in [0, 1)
+    /// Samples a direction. @param choice, u  uniform in [0, 1)
     Sample sample(float choice, glm::vec2 u) const {
         const auto bits = static_cast<unsigned>(choice * static_cast<float>(units));
         const Slot& slot = slots_[bits / units_a_slot];
@@ -41,13 +41,15 @@ public:
         const float length = std::sqrt(p.x * p.x + p.y * p.y + z * z);
         return {glm::vec3(p, z) / length, density(bin) * length * length * length};
     }
-    /// Of a unit direction (world).
+    /// Returns the pdf of a unit direction (world), per solid angle.
     float pdf_w(glm::vec3 direction) const {
         const float s = scale_to_octahedron(direction);
         return density(static_cast<unsigned>(bin_of(direction))) * s * s * s;
     }
+    /// Returns the probability of a bin.
     float share(int bin) const { return static_cast<float>(slots_[bin].units) / static_cast<float>(units); }
 
+    /// Returns the bin of a unit direction (world).
     static int bin_of(glm::vec3 direction) {
         const glm::vec3 d = direction * scale_to_octahedron(direction);
         const glm::vec2 p = d.z < 0 ? folded(d) : glm::vec2(d);
@@ -61,65 +63,65 @@ private:
     static constexpr unsigned units_a_slot = 256, units = units_a_slot * bins;
 
     struct Slot {
-        std::uint8_t threshold, alias; ///< of its units, those below the threshold are the slot's own bin's
-        std::uint16_t units;           ///< of the bin
+        std::uint8_t threshold, alias; ///< units below the threshold choose the slot's own bin, others `alias`
+        std::uint16_t units;           ///< probability of the bin, in units
     };
 
-    /// The lower half of the octahedron lies in the corners of the square; and back.
+    /// Maps the lower half of the octahedron to the corners of the square, and back.
     static glm::vec2 folded(glm::vec2 p) {
         return {std::copysign(1 - std::abs(p.y), p.x), std::copysign(1 - std::abs(p.x), p.y)};
     }
-    /// How far from the middle the octahedron is; its cube is what turns area of the square into solid angle.
+    /// Returns the distance from the centre to the octahedron. Its cube converts a pdf per area of the square to
+    /// one per solid angle.
     static float scale_to_octahedron(glm::vec3 direction) {
         return 1 / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
     }
-    float density(unsigned bin) const { // per area of the square, which is 4
+    float density(unsigned bin) const { // per area of the square [-1, 1]^2
         return static_cast<float>(slots_[bin].units) * (static_cast<float>(bins) / 4 / static_cast<float>(units));
     }
 
     std::array<Slot, bins> slots_;
 };
 
-/// What directions at a place are drawn from.
+/// Distribution of directions at a place, METHODS (22).
 struct DirectionGuide {
-    DirectionMap map;
-    float share; ///< of the directions; the BSDF has the others, so that no light is ever missed
+    DirectionMap map; ///< g
+    float share; ///< s, the fraction of directions drawn from g; the BSDF draws the others, so no light is missed
 };
 
-/// The shares that are tried: multiples of a quarter, so that random numbers below 1 stay so when one is stretched
-/// over its part.
+/// Candidates for the share s. Quarters keep a rescaled random number below 1 in floating point.
 inline constexpr std::array<float, 4> tried_shares = {0, 0.25f, 0.5f, 0.75f};
 using TriedShares = std::array<float, tried_shares.size()>;
 
-/// What the square of a sample would have been with each share, times how much more often it would have been
-/// drawn: in the mean over all samples, the second moment with that share.
-/// @param value          of the sample: what was found, over pdf_w
-/// @param pdf_w, guided  of its direction: as it was drawn, with the share `used`, and by the guide alone; of a
-///                       delta scatter its probability, and 0
+/// Returns v^2 p_s / p_t of one sample for each t in tried_shares, METHODS (23). The mean over samples estimates
+/// the second moment with share t.
+/// @param value   v: contribution of the sample over pdf_w
+/// @param pdf_w   p_s of its direction, per solid angle; or the probability of a delta scatter
+/// @param guided  g of its direction, per solid angle; 0 for a delta scatter
+/// @param used    s, the share with which it was drawn
 TriedShares squares_by_share(float value, float pdf_w, float guided, float used);
 
-/// Light that a base path found beyond one of its vertices.
+/// Light that a guiding path found beyond one of its vertices.
 struct FoundLight {
-    glm::vec3 position, normal; ///< of the vertex; unit, of shading
+    glm::vec3 position, normal; ///< of the vertex; unit shading normal
     glm::vec3 direction;        ///< unit, world
-    float irradiance;   ///< luminance times cosine, over pdf_w and the survival of the roulette; 0: a delta
-                        ///< scatter's, which no guide draws, but which is drawn less often where there is one
-    float value, pdf_w; ///< luminance of what the vertex sends on of it, over the same; the pdf of the direction
-                        ///< as it was drawn, or a delta scatter's probability
+    float irradiance;           ///< luminance times cosine, over pdf_w and survival; 0 after a delta scatter
+    float value;                ///< luminance of the radiance scattered toward the camera, over pdf_w and survival
+    float pdf_w;                ///< of the direction, per solid angle; or the probability of a delta scatter
 };
 
-/// A grid over the places that paths come to, and the side to which surfaces there look.
+/// Grid over the positions of path vertices, times the six sides that a surface can face.
 struct GuidingGrid {
-    glm::ivec3 size{0};
-    glm::vec3 low{0};
-    float cells_a_length = 0;
+    glm::ivec3 size{0};       ///< cells along each axis
+    glm::vec3 low{0};         ///< corner, world
+    float cells_a_length = 0; ///< cells per scene unit
 
     static constexpr int sides = 6;
     int count() const { return size.x * size.y * size.z * sides; }
     int index(glm::ivec3 cell, int side) const {
         return ((cell.z * size.y + cell.y) * size.x + cell.x) * sides + side;
     }
-    /// What lies beyond the grid belongs to the nearest cell.
+    /// Returns the index of a cell; positions outside the grid belong to the nearest one.
     int cell_of(glm::vec3 position, glm::vec3 normal) const {
         const glm::vec3 q = glm::clamp((position - low) * cells_a_length, glm::vec3(0), glm::vec3(size - 1));
         const glm::vec3 a = glm::abs(normal);
@@ -129,12 +131,12 @@ struct GuidingGrid {
     }
 };
 
-/// Path guiding [after Müller 2017]: where in the scene light was found to come from. Rough vertices draw a share
-/// of their directions from that. Does not change while a pass goes on, so that base and offset paths meet the
-/// same distribution at the same place.
+/// Path guiding [after Müller 2017]: directions from which earlier passes found light, by place. Rough vertices
+/// draw a share of their directions from it, METHODS (22). It is constant during a pass, so base and offset paths
+/// have the same pdf at the same place.
 class PathGuiding {
 public:
-    /// @param known  of each cell of the grid, which of the guides; -1: none
+    /// @param known  index of each cell's guide; -1: none
     PathGuiding(const GuidingGrid& grid, std::vector<int> known, std::vector<DirectionGuide> guides,
                 double left_of_squares)
         : grid_(grid), known_(std::move(known)), drawn_from_(known_), guides_(std::move(guides)),
@@ -145,21 +147,21 @@ public:
         draws_ = std::ranges::any_of(drawn_from_, [](int guide) { return guide >= 0; });
     }
 
-    /// Whether anything is drawn from it, at any place.
+    /// Returns whether any cell has a positive share.
     bool draws() const { return draws_; }
 
-    /// What the best shares leave of the second moment without a guide, (0, 1]: the geometric mean over the cells
-    /// that tell, by their numbers of samples, so that no few bright samples decide. 1: none tell yet.
+    /// Returns the second moment with the best shares over that without a guide, in (0, 1]. It is a geometric
+    /// mean over cells, weighted by their numbers of samples, so few bright samples do not decide. 1: not known.
     double left_of_squares() const { return left_of_squares_; }
 
-    /// Below this roughness, the BSDF alone knows best.
+    /// Smoother surfaces are not guided (not tuned).
     static constexpr float least_roughness = 0.11f;
 
-    /// What is known of a place; null: nothing.
+    /// Returns the guide of a place, even with the share 0; null: none.
     const DirectionGuide* known_at(glm::vec3 position, glm::vec3 normal) const {
         return guide(known_, position, normal);
     }
-    /// What is drawn from there; null: the BSDF has all directions.
+    /// Returns the guide that directions are drawn from; null: the BSDF draws all of them.
     const DirectionGuide* at(glm::vec3 position, glm::vec3 normal) const {
         return guide(drawn_from_, position, normal);
     }
@@ -172,7 +174,7 @@ private:
 
     GuidingGrid grid_;
     std::vector<int> known_;
-    std::vector<int> drawn_from_; ///< -1 where nothing is drawn, so that no path has to look into the guide there
+    std::vector<int> drawn_from_; ///< known_, but -1 where the share is 0; saves paths a memory access
     std::vector<DirectionGuide> guides_;
     double left_of_squares_;
     bool draws_;

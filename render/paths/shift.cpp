@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <glm/vec3.hpp>
+
 namespace tessera {
 
 void Shift::run(const BasePath& base, const LightPaths& light, PrimaryVertices& primary, int self,
@@ -19,7 +20,7 @@ void Shift::run(const BasePath& base, const LightPaths& light, PrimaryVertices& 
         walk();
 }
 
-/// False: there is nothing to shift to.
+/// Sets all lanes to y_1. Returns false if there is no pixel to shift to.
 bool Shift::start(int self) {
     for (int m = 0; m < padded(y_->count()); ++m) {
         active_[m] = y_->exists[m];
@@ -31,27 +32,27 @@ bool Shift::start(int self) {
         (*outcomes_)[m] = y_->exists[m] ? ShiftOutcome::ok : ShiftOutcome::outside;
     if (self >= 0)
         active_[self] = 0;
-    tell_of(active_, [&](int m) { onlooker_->arrives(m, (*y_)[m]); });
+    notify(active_, [&](int m) { onlooker_->arrives(m, (*y_)[m]); });
     std::int32_t any = 0;
     for (int m = 0; m < padded(y_->count()); ++m)
         any |= active_[m];
     return any != 0;
 }
 
-/// Goes along the base path, x_1, x_2, ... (vertices 0, 1, ...), and takes the offsets along.
+/// Walks along the base path and shifts the light paths that end at each vertex.
 void Shift::walk() {
     const auto alive_from = [&](int slot) { return slot <= light_->last_alive(); };
-    bool lights_are_connected = false; // emitter sampling at x_i went the way y_{i-1} -> x_i
+    bool lights_are_connected = false; // the light sample at x_i is shifted through the edge y_{i-1} -> x_i
     for (int i = 0; i < base_->size(); ++i) {
         if (!lights_are_connected)
             shift_light(i);
         if (!alive_from(light_->hit_slot(i)))
             return;
-        if (base(i).survival < 1) // all that ends further on has survived the roulette on path length here
+        if (base(i).survival < 1) // of roulette on path length, for all light paths that continue
             for (int m = 0; m < y_->count(); ++m)
                 prefix_.value.set(m, prefix_.value[m] / base(i).survival);
         if (i + 1 == base_->size())
-            return escape(i); // what else could carry light there
+            return escape(i); // its hit slot carries light only if the path escapes
         lights_are_connected = false;
         if (light_->step_is_connectable(i)) {
             lights_are_connected = light_->step_joins(i);
@@ -60,8 +61,8 @@ void Shift::walk() {
                 return;
         }
         if (settings_.shift == ShiftKind::reconnection)
-            return; // x_1 and x_2 are joined or nothing is
-        // What is left for a bounce: emitter sampling at x_{i+1}, unless it is done, and all that ends further on.
+            return; // this shift joins at the second vertex only
+        // A bounce shifts what is left: the light sample at x_{i+1}, unless it is done, and all that ends beyond.
         const int next_slot = lights_are_connected ? light_->hit_slot(i + 1) : light_->emitter_slot(i + 1);
         const bool hit_is_left = !light_->step_is_connectable(i) && light_->is_alive(light_->hit_slot(i));
         if ((!hit_is_left && !alive_from(next_slot)) || !bounce(i))
@@ -69,63 +70,63 @@ void Shift::walk() {
     }
 }
 
-/// Emitter sampling at x_i.
+/// Shifts the light sample at x_i.
 void Shift::shift_light(int i) {
     const int slot = light_->emitter_slot(i);
     if (slot < light_->first_shared() || !light_->is_alive(slot))
         return;
-    LaneMask& asked = light_connection_.asked;
-    ask_for_lobes(asked);
-    const bool is_joined = joins_light(i);
-    if (is_joined || (!replays() && !base_->light(i).light.can_be_hit()))
-        return connect_light(i, is_joined);
-    ask_for_scatter(i, slot, slot + 1);
+    LaneMask& eligible = light_connection_.eligible;
+    select_lobes(eligible);
+    const bool connectable = light_is_connectable(i);
+    if (connectable || (!replays() && !base_->light(i).light.can_be_hit()))
+        return connect_light(i, connectable);
+    begin_first_scatter(i, slot, slot + 1);
     EdgeGroup* edges = replays() ? &edges_->add(slot, slot + 1) : nullptr;
     for (int m = 0; m < y_->count(); ++m)
-        if (asked[m])
+        if (eligible[m])
             edges ? replay_light(i, m, *edges) : bounce_to_light(i, m);
 }
 
-/// The base leaves the scene at its last vertex, x_i, and meets the environment.
+/// Shifts the light path that leaves the scene at the last vertex, x_i, and hits the environment.
 void Shift::escape(int i) {
     if (light_->hit_slot(i) < light_->first_shared())
         return;
     if (light_->step_is_connectable(i))
         return connect_infinity(i);
-    ask_for_scatter(i, light_->hit_slot(i), light_->hit_slot(i) + 1);
+    begin_first_scatter(i, light_->hit_slot(i), light_->hit_slot(i) + 1);
     for (int m = 0; m < y_->count(); ++m)
         if (active_[m])
             bounce_out(i, m);
 }
 
-bool Shift::joins_light(int i) const {
+bool Shift::light_is_connectable(int i) const {
     const Vertex& x = base(i).vertex;
     const float distance = base_->light(i).light.distance_from(x.position);
     return rule_.covers(x.bsdf.roughness(), rule_.turn(light_->apart(i), distance));
 }
 
-/// Of the offsets that go on, asks those that have more than delta scatters.
-void Shift::ask_for_lobes(LaneMask& asked) {
+/// Selects the active offsets that have a non-delta lobe. The others fail.
+void Shift::select_lobes(LaneMask& eligible) {
     for (int m = 0; m < padded(y_->count()); ++m)
-        asked[m] = y_->roughness[m] > 0 ? active_[m] : 0;
-    fail_others(active_, asked, ShiftOutcome::kind_mismatch);
+        eligible[m] = y_->roughness[m] > 0 ? active_[m] : 0;
+    record_failures(active_, eligible, ShiftOutcome::kind_mismatch);
 }
 
-/// Of those asked, keeps the ones that are joined if and only if the base is.
-void Shift::keep_alike(bool joined, LaneMask& asked, SightLanes& sight) {
+/// Keeps the eligible offsets whose edge is connectable exactly if the base's is. The others fail.
+void Shift::keep_alike(bool connectable, LaneMask& eligible, SightLanes& sight) {
     for (int m = 0; m < padded(y_->count()); ++m) {
-        const bool same = joins(m, std::sqrt(sight.distance2[m])) == joined;
-        asked[m] = same ? asked[m] : 0;
-        sight.valid[m] &= asked[m];
+        const bool same = is_connectable(m, std::sqrt(sight.distance2[m])) == connectable;
+        eligible[m] = same ? eligible[m] : 0;
+        sight.valid[m] &= eligible[m];
     }
-    fail_others(active_, asked, ShiftOutcome::kind_mismatch);
+    record_failures(active_, eligible, ShiftOutcome::kind_mismatch);
 }
 
-/// Says why those asked who are not among the arrived are not; only the first cause counts.
-void Shift::fail_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome) {
+/// Records the outcome for the eligible lanes that have not arrived. Only the first failure is kept.
+void Shift::record_failures(const LaneMask& eligible, const LaneMask& arrived, ShiftOutcome outcome) {
     for (int m = 0; m < y_->count(); ++m) {
         ShiftOutcome& o = (*outcomes_)[m];
-        o = (asked[m] != 0) & (arrived[m] == 0) & (o == ShiftOutcome::ok) ? outcome : o;
+        o = (eligible[m] != 0) & (arrived[m] == 0) & (o == ShiftOutcome::ok) ? outcome : o;
     }
 }
 

@@ -14,42 +14,43 @@
 
 namespace tessera {
 
-/// A scattering of a base path as it is done again at an offset vertex.
+/// A scatter of a base path, repeated at an offset vertex.
 struct CopiedScatter {
-    glm::vec3 to_next; ///< in the offset vertex's frame
+    glm::vec3 to_next; ///< unit, in the offset vertex's frame
     Rgb f_cos;
     float pdf_w;    ///< per solid angle, or a probability after a delta scatter
-    float jacobian; ///< solid angle at the offset over solid angle at the base; 1 after a copied delta scatter
+    float jacobian; ///< |J|, solid angle at the offset over solid angle at the base; 1 after a delta scatter
 };
 
-/// Copies the half vector of a reflection or, where base_to_next is on the other side, of a refraction from the
-/// base's frame to the offset's [Kettunen 2015, 5.2; Jacobians from Walter 2007, eq. 14 and 17]. The index of
-/// refraction is each vertex's own.
-/// Empty: light cannot go that way at the offset, or only on the other side; the offset then carries nothing.
+/// Copies the half vector of a reflection or refraction from base to offset [Kettunen 2015, 5.2], with the
+/// Jacobian of METHODS (15). Each vertex has its own index of refraction. Returns nothing if the offset has no
+/// such direction on the same side as the base, or scatters no light there.
+/// @param base_to_next  unit, in the base vertex's frame; on the other side than to_previous for a refraction
 std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base_to_next, const Vertex& offset);
 
-/// Repeats a delta scatter at the offset. Empty: it has no such part, or all light is reflected.
+/// Repeats a delta scatter at the offset, with |J| = 1. Returns nothing if the offset's BSDF has no such part, or
+/// in total internal reflection.
 std::optional<CopiedScatter> copy_delta(Scatter scatter, const Vertex& offset);
 
-/// What the pixels of a sampling set see, x_1 of each.
+/// Vertices y_1, one for each pixel of a sampling set.
 class PrimaryVertices : public OffsetVertices {
 public:
     FloatLanes pixel_width; ///< BasePath::pixel_width
 
-    /// Begins another set.
+    /// Starts another set.
     void reset(int count) {
         OffsetVertices::reset(count);
         ++set_;
     }
-    /// Keeps a reference to the path, which sees something.
+    /// Sets the vertex of a lane to x_1 of a path that is not empty. Keeps a reference to it.
     void set_pixel(int lane, const BasePath& path) {
         set(lane, path[0].vertex);
         pixel_width[lane] = path.pixel_width;
     }
 
-    /// What lies beyond x_1 in the direction of a delta scatter: that is the same for every base path of the set,
-    /// so it is traced for the first alone, by trace(vertex), which says whether there is anything. Null: nothing
-    /// is. It stays until the next set.
+    /// Returns the vertex beyond y_1 in the direction of a delta scatter; null: none. It is the same for all base
+    /// paths of the set, so only the first call traces it, with trace(vertex), which returns false if there is
+    /// none. The vertex is valid until the next reset().
     template <class Trace>
     const Vertex* beyond(int lane, Scatter scatter, glm::vec3 direction, Trace&& trace) {
         if (beyond_.size() < 2 * static_cast<std::size_t>(count())) // no vertex of this set is in use yet
@@ -65,94 +66,97 @@ public:
 
 private:
     struct Beyond {
-        std::uint64_t set = 0; ///< of which it is known; 0: of none
+        std::uint64_t set = 0; ///< the set for which the members are valid; 0: none
         glm::vec3 direction;   ///< unit, world
         bool is_met;
         Vertex vertex;
     };
 
-    std::vector<Beyond> beyond_; ///< two a lane, reflected and transmitted; never shrinks
+    std::vector<Beyond> beyond_; ///< two for each lane, reflected and transmitted; never shrinks
     std::uint64_t set_ = 0;
 };
 
-/// How a shift went, a lane a pixel.
+/// Outcomes of a shift, one lane for each pixel.
 using OutcomeLanes = LaneArray<ShiftOutcome>;
 
-/// What the way from the camera to the offset vertices has cost: products of ratios, each of them a single number
-/// (never products of densities, which underflow).
+/// Factors of r_m and c_m from the vertices up to the current one, METHODS (6) and (7). They are products of
+/// quotients, as products of densities would underflow.
 struct PrefixLanes {
-    FloatLanes ratio; ///< pdf of the offset with its Jacobians over the base's, no unit
-    Vec3Lanes value;  ///< f of the offset with its Jacobians over the base's pdf
+    FloatLanes ratio; ///< pdf of the offset times |J| over the pdf of the base, no unit
+    Vec3Lanes value;  ///< f of the offset times |J| over pdf and survival of the base
 };
 
-/// Offset vertices y_i joined to the base's next vertex, x_{i+1}.
+/// Connections from offset vertices y_i to the base's next vertex, x_{i+1}.
 struct VertexConnection {
-    int vertex;            ///< i, from 0
-    LaneMask asked;        ///< the offsets that go on, and are of the base's kind there
+    int vertex;            ///< i; 0 is y_1
+    LaneMask eligible;     ///< active offsets that decide on this step as the base does
     SightLanes sight;      ///< of x_{i+1} from y_i
     BsdfLanes bsdf;        ///< at y_i, toward x_{i+1}
-    LaneMask lit;          ///< those of `asked` to which light can come that way
-    LaneMask reached;      ///< those of `lit` whose edge is long enough for light from beyond x_{i+1}
-    PrefixLanes prefix;    ///< through that edge, by BSDF sampling alone; ratio 0 where it is not reached
+    LaneMask lit;          ///< eligible offsets that can receive light along the edge
+    LaneMask reached;      ///< lit offsets whose edge also joins, METHODS (18)
+    PrefixLanes prefix;    ///< through the edge, by BSDF sampling alone; ratio 0 unless reached
     Vec3Lanes to_previous; ///< unit, from x_{i+1} to y_i, in the frame of x_{i+1}
 };
 
-/// Offset vertices y_i joined to a point on a light, or to a direction at infinity.
+/// Connections from offset vertices y_i to a point on a light, or to a direction at infinity.
 struct LightConnection {
-    LaneMask asked; ///< the offsets that go on, and are of the base's kind there
+    LaneMask eligible; ///< active offsets that decide on this step as the base does
     SightLanes sight;
     LightLanes arriving;
     BsdfLanes bsdf; ///< at y_i, toward the light
 };
 
-/// Shifts all light paths of a base path to other pixels at once, lane by lane, by the kind of shift in
-/// `settings`, but for random replay all the way (PathReuse): until base and offset can be connected, half vectors
-/// are copied [Bauszat 2017, 3.1] or random numbers replayed [Hua 2019, 3.1]. The base path alone decides on every
-/// branch, so all lanes do the same arithmetic. In x_i and y_i, i counts from 0
-/// in this class, as vertices do: i = 0 is what METHODS.md calls x_1.
+/// Shifts all light paths x of a base path to the other pixels of its set, METHODS (5), and computes r_m and c_m,
+/// METHODS (6) and (7). It walks along the base path: as long as an offset path cannot join it, the offset copies
+/// half vectors [Bauszat 2017, 3.1] or replays random numbers [Hua 2019, 3.1]. PathReuse does random replay of
+/// whole paths. The base path alone decides on every branch, so all lanes do the same arithmetic. The index i of
+/// x_i and y_i counts from 0 in this class: i = 0 is x_1 of METHODS.
 ///
-/// The walk along the base path is in shift.cpp; how offsets are joined to a vertex or a light of the base path in
-/// shift_connections.cpp; how a scatter is done again, and a ray traced, in shift_bounces.cpp.
+/// shift.cpp has the walk, shift_connections.cpp the connections of offsets to vertices and lights of the base
+/// path, and shift_bounces.cpp repeated scatters, whose rays are traced.
 class Shift {
 public:
     Shift(const Tracer& tracer, const ShiftSettings& settings)
         : tracer_(tracer), settings_(settings), rule_(settings, 0) {}
 
-    /// @param primary  what the pixels see; a lane without a vertex is not shifted to. It
-    ///                 remembers what lies beyond delta scatters
-    /// @param self     the lane of the base's own pixel, which is left alone; -1: none
-    /// @param paths    receives ratios and values, all failed before
-    /// @param edges    receives the new edges, unchecked
-    /// @param outcomes receives ok, or why the first light path that failed did so
+    /// Shifts a base path to all pixels of `primary`.
+    /// @param light     light paths of `base`
+    /// @param primary   y_1 of all pixels; lanes without a vertex are not shifted to. Stores vertices beyond
+    ///                  delta scatters.
+    /// @param self      lane of the base's own pixel, which is left out; -1: none
+    /// @param paths     receives r_m and c_m; all shifts must have failed before
+    /// @param edges     receives the new edges, which the caller must resolve
+    /// @param outcomes  receives ok, or the reason of the first light path that failed
     void run(const BasePath& base, const LightPaths& light, PrimaryVertices& primary, int self, OffsetPaths& paths,
              PendingEdges& edges, OutcomeLanes& outcomes);
 
-    /// @param onlooker  is told of all that the next runs do; null: nobody is
+    /// Sets the observer of the next runs; null: none.
     void set_onlooker(ShiftOnlooker* onlooker) { onlooker_ = onlooker; }
 
 private:
     const BaseVertex& base(int i) const { return (*base_)[i]; }
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
-    /// Whether offsets at x_i are joined to the light sample there.
-    bool joins_light(int i) const;
-    /// Whether an offset at y_i would be joined to what it meets at that distance, for the light that it gives.
-    bool joins(int m, float distance) const {
+    /// Returns whether the base connects x_i to its light sample, METHODS (17).
+    bool light_is_connectable(int i) const;
+    /// Returns whether an edge of y_i with this length is connectable, METHODS (17).
+    bool is_connectable(int m, float distance) const {
         return rule_.covers(y_->roughness[m], rule_.turn(apart_[m], distance));
     }
 
-    // The walk.
+    // Walk (shift.cpp).
     bool start(int self);
     void walk();
     void shift_light(int i);
     void escape(int i);
-    void ask_for_lobes(LaneMask& asked);
-    void keep_alike(bool joined, LaneMask& asked, SightLanes& sight);
-    void fail_others(const LaneMask& asked, const LaneMask& arrived, ShiftOutcome outcome);
+    void select_lobes(LaneMask& eligible);
+    void keep_alike(bool connectable, LaneMask& eligible, SightLanes& sight);
+    void record_failures(const LaneMask& eligible, const LaneMask& arrived, ShiftOutcome outcome);
     void fail(int m, ShiftOutcome outcome);
 
-    // Connections.
-    void keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf);
-    void connect_light(int i, bool is_joined);
+    // Connections (shift_connections.cpp).
+    void record_first_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction,
+                              const BsdfLanes& bsdf);
+    void connect_light(int i, bool connectable);
     void connect_infinity(int i);
     void connect_next(int i);
     const VertexConnection& connect_vertex(int i, EdgeGroup& edges);
@@ -160,30 +164,30 @@ private:
     void shift_light_beyond(const VertexConnection& connection);
     void shift_tail(const VertexConnection& connection);
 
-    // Bounces.
+    // Bounces (shift_bounces.cpp).
     bool bounce(int i);
     bool bounce(int i, int m);
     const Vertex* meet(int i, int m, glm::vec3 direction);
     void bounce_to_light(int i, int m);
     void bounce_out(int i, int m);
-    void ask_for_scatter(int i, int first_slot, int end_slot);
-    void keep_bounce(int m, const CopiedScatter& s, bool is_delta);
+    void begin_first_scatter(int i, int first_slot, int end_slot);
+    void record_bounce(int m, const CopiedScatter& s, bool is_delta);
     void replay_light(int i, int m, EdgeGroup& edges);
     void end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                       float base_pdf_sum, bool is_delta);
     bool is_joined_alike(int i, int m, float distance, const Vertex& next) const;
-    bool may_be_alike(int i, int m) const;
+    bool may_agree(int i, int m) const;
     std::optional<CopiedScatter> copy_scatter(int i, int m);
     std::optional<CopiedScatter> replay_scatter(int i, int m);
 
-    /// Calls tell(m) for the lanes of the mask, if anybody looks on.
+    /// Calls tell(m) for the lanes of a mask, if there is an observer.
     template <class Tell>
-    void tell_of(const LaneMask& lanes, Tell&& tell) const {
+    void notify(const LaneMask& lanes, Tell&& tell) const {
         for (int m = 0; onlooker_ && m < y_->count(); ++m)
             if (lanes[m])
                 tell(m);
     }
-    /// How the light path of a slot has ended in lane m.
+    /// Returns the last step of a slot's light path in lane m, for the observer.
     OffsetStep last_step(int slot, int m, float pdf_w, float jacobian, bool is_delta = false) const {
         return {light_->vertex_of(slot), pdf_w, is_delta, jacobian, paths_->ratio(slot, m),
                 paths_->value(slot, m)};
@@ -194,26 +198,26 @@ private:
     ShiftOnlooker* onlooker_ = nullptr;
     JoinRule rule_;
 
-    // The base path at hand and what becomes of it.
+    // Arguments of run().
     const BasePath* base_ = nullptr;
     const LightPaths* light_ = nullptr;
     OffsetPaths* paths_ = nullptr;
     PendingEdges* edges_ = nullptr;
     OutcomeLanes* outcomes_ = nullptr;
 
-    // The offsets, as far as the walk has come.
+    // Offset paths at the current vertex of the walk.
     PrimaryVertices* primary_ = nullptr; ///< y_1
     const OffsetVertices* y_ = nullptr;  ///< y_i
-    LaneMask active_;                    ///< those that go on
-    FloatLanes apart_;                   ///< how far y_i lies from other pixels' (JoinRule)
-    FloatLanes own_width_;               ///< of a pixel at y_i, as Tracer::width_beyond() has it
+    LaneMask active_;                    ///< offsets that continue
+    FloatLanes apart_;                   ///< s_i of y_i, METHODS (16), scene units
+    FloatLanes own_width_;               ///< pixel width at y_i (Tracer::width_beyond), scene units, or no_width
     PrefixLanes prefix_;
-    FirstScatter* bounced_ = nullptr; ///< the scatter at y_1 that is done again, lane by lane; null: nobody asks
-    OffsetVertices moved_;            ///< y_i beyond the first bounce
+    FirstScatter* first_scatter_ = nullptr; ///< receives the repeated scatter at y_1; null: not needed
+    OffsetVertices moved_;                  ///< y_i beyond the first bounce
     std::vector<Vertex> moved_vertices_;
-    std::vector<const Vertex*> met_; ///< y_{i+1} while it is looked for
+    std::vector<const Vertex*> next_vertices_; ///< y_{i+1} during a bounce
 
-    // Memory that is too large for the stack, written before it is read by whoever makes a connection.
+    // Scratch memory, too large for the stack.
     VertexConnection vertex_connection_;
     LightConnection light_connection_;
     BsdfLanes beyond_; ///< at x_{i+1}, toward y_i

@@ -1,4 +1,4 @@
-// Shift: offsets joined to a vertex of the base path, or to its lights, by new edges or directions.
+// Shift: connections of offset paths to a vertex of the base path, or to its lights.
 #include "render/paths/shift.h"
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 
 namespace tessera {
 
-/// The light paths of some slots leave y_1 that way.
-void Shift::keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction, const BsdfLanes& bsdf) {
+/// Stores the scatter by which the light paths of the slots [first_slot, end_slot) leave y_1.
+void Shift::record_first_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& direction,
+                                 const BsdfLanes& bsdf) {
     if (i > 0 || !paths_->keeps_scatters())
         return;
     FirstScatter& scatter = paths_->add_first_scatter(first_slot, end_slot);
@@ -20,25 +21,25 @@ void Shift::keep_scatter(int i, int first_slot, int end_slot, const Vec3Lanes& d
     }
 }
 
-/// Joins the offsets to the same point of the light, at infinity to the same direction.
-/// @param is_joined  whether the base is, by its lobe
-void Shift::connect_light(int i, bool is_joined) {
+/// Connects the offsets to the light sample of x_i: the same point, or the same direction at infinity.
+/// @param connectable  the base's own edge is connectable, METHODS (17)
+void Shift::connect_light(int i, bool connectable) {
     const LightSample& x = base_->light(i);
     const int slot = light_->emitter_slot(i);
     LightConnection& c = light_connection_;
-    connect_to_light(*y_, c.asked, x.light, c.sight, c.arriving);
-    // A copied half vector cannot meet a light without extent: that is joined to from either side.
+    connect_to_light(*y_, c.eligible, x.light, c.sight, c.arriving);
+    // A copied half vector cannot hit a light without extent, so base and offset connect to it in any case.
     if (replays() || x.light.can_be_hit())
-        keep_alike(is_joined, c.asked, c.sight);
+        keep_alike(connectable, c.eligible, c.sight);
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
-    keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
+    record_first_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
     const float bsdf_counts = x.light.can_be_hit() ? 1 : 0, share = x.pdf_w / x.pdf_sum;
     for (int m = 0; m < padded(y_->count()); ++m) {
         const float pdf_sum = c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m];
-        // The pdf of the light's point is the same for all, so the ratio of the solid angles, the Jacobian, is the
-        // inverse of that of the pdfs per solid angle.
+        // The point has the same pdf for all pixels, so J, the quotient of solid angles, is the inverse quotient
+        // of the pdfs per solid angle. `scale` is J / P_k, and the row is METHODS (6) and (7).
         const float scale = share / c.arriving.pdf_w[m];
         const float ratio = c.sight.valid[m] ? prefix_.ratio[m] * pdf_sum * scale : 0.0f;
         row.set(m, ratio,
@@ -47,49 +48,49 @@ void Shift::connect_light(int i, bool is_joined) {
                  prefix_.value.z[m] * c.bsdf.f_cos.z[m] * c.arriving.radiance.z[m] * scale});
         edges.exists[m] = row.ratio[m] > 0 ? -1 : 0;
     }
-    tell_of(edges.exists, [&](int m) {
+    notify(edges.exists, [&](int m) {
         onlooker_->ends(m, slot,
                         last_step(slot, m, c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m],
                                   x.pdf_w / c.arriving.pdf_w[m]));
     });
     edges_to_light(tracer_, *y_, c.sight.direction, x.light, edges.segments);
-    fail_others(c.asked, edges.exists, ShiftOutcome::no_light);
+    record_failures(c.eligible, edges.exists, ShiftOutcome::no_light);
 }
 
-/// Joins the offsets to the environment: the same direction, so with a Jacobian of 1.
+/// Connects the offsets to the environment where the base hits it: the same direction, with J = 1.
 void Shift::connect_infinity(int i) {
     const BaseVertex& x = base(i);
     const int slot = light_->hit_slot(i);
     const LightPoint infinity{LightPoint::Kind::environment, x.vertex.to_world(x.to_next), glm::vec3(0), Rgb(0),
                               0};
     LightConnection& c = light_connection_;
-    ask_for_lobes(c.asked);
+    select_lobes(c.eligible);
     for (int m = 0; m < padded(y_->count()); ++m) {
         c.sight.direction.set(m, infinity.position);
         c.sight.distance2[m] = std::numeric_limits<float>::infinity();
-        c.sight.valid[m] = c.asked[m];
+        c.sight.valid[m] = c.eligible[m];
     }
-    keep_alike(true, c.asked, c.sight);
-    y_->evaluate(c.sight.direction, c.asked, c.bsdf);
-    keep_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
+    keep_alike(true, c.eligible, c.sight);
+    y_->evaluate(c.sight.direction, c.eligible, c.bsdf);
+    record_first_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
     for (int m = 0; m < padded(y_->count()); ++m) {
-        // hit_brings is the radiance times pdf_w over the summed pdfs.
+        // hit_brings / pdf_w is the radiance over the summed pdfs of this step.
         const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + x.hit_pdf_w) / (x.pdf_w + x.hit_pdf_w);
-        row.set(m, c.asked[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * x.hit_brings / x.pdf_w);
+        row.set(m, c.eligible[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * x.hit_brings / x.pdf_w);
         edges.exists[m] = row.ratio[m] > 0 ? -1 : 0;
     }
-    tell_of(edges.exists,
-            [&](int m) { onlooker_->ends(m, slot, last_step(slot, m, c.bsdf.pdf_w[m] + x.hit_pdf_w, 1)); });
+    notify(edges.exists,
+           [&](int m) { onlooker_->ends(m, slot, last_step(slot, m, c.bsdf.pdf_w[m] + x.hit_pdf_w, 1)); });
     edges_to_light(tracer_, *y_, c.sight.direction, infinity, edges.segments);
-    fail_others(c.asked, edges.exists, ShiftOutcome::no_light);
+    record_failures(c.eligible, edges.exists, ShiftOutcome::no_light);
 }
 
-/// Joins the offsets to x_{i+1}: for its emission, for emitter sampling there, and beyond it if that is where
-/// offsets join.
+/// Connects the offsets to x_{i+1}: for its emission; if the step joins, for its light sample; and if x_{i+1} is
+/// the join, for all light beyond it.
 void Shift::connect_next(int i) {
-    // The slots that go through this edge: a light path that leaves x_{i+1} by a half vector takes another way.
+    // The slots through this edge. Light paths that leave x_{i+1} by a copied half vector do not use it.
     const int hit = light_->hit_slot(i), first = std::max(hit, light_->first_shared());
     int end = hit + 1;
     if (light_->join() == i + 1)
@@ -100,31 +101,31 @@ void Shift::connect_next(int i) {
         return;
     EdgeGroup& edges = edges_->add(first, end);
     const VertexConnection& connection = connect_vertex(i, edges);
-    keep_scatter(i, first, end, connection.sight.direction, connection.bsdf);
+    record_first_scatter(i, first, end, connection.sight.direction, connection.bsdf);
     if (first == hit && light_->is_alive(first))
         shift_hit(connection);
     if (light_->step_joins(i))
         shift_light_beyond(connection);
     if (light_->join() == i + 1 && light_->last_alive() >= light_->hit_slot(i + 1))
         shift_tail(connection);
-    fail_others(connection.asked, connection.lit, ShiftOutcome::no_light);
+    record_failures(connection.eligible, connection.lit, ShiftOutcome::no_light);
     if (end > hit + 1)
-        fail_others(connection.lit, connection.reached, ShiftOutcome::kind_mismatch);
+        record_failures(connection.lit, connection.reached, ShiftOutcome::kind_mismatch);
 }
 
-/// The edges y_i -> x_{i+1}, unchecked, and what it costs to go along them.
+/// Computes the edges y_i -> x_{i+1}, without visibility, and the factors of r_m and c_m through them.
 const VertexConnection& Shift::connect_vertex(int i, EdgeGroup& edges) {
     const BaseVertex& x = base(i);
     const Vertex& next = base(i + 1).vertex;
     VertexConnection& c = vertex_connection_;
     c.vertex = i;
-    ask_for_lobes(c.asked);
-    connect_to_point(*y_, c.asked, next.position, next.geometric_normal, false, c.sight);
-    keep_alike(true, c.asked, c.sight);
+    select_lobes(c.eligible);
+    connect_to_point(*y_, c.eligible, next.position, next.geometric_normal, false, c.sight);
+    keep_alike(true, c.eligible, c.sight);
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
     const float roughness = next.bsdf.roughness();
     for (int m = 0; m < padded(y_->count()); ++m) {
-        const float jacobian = c.sight.geometry[m] / x.next_geometry; // of solid angles
+        const float jacobian = c.sight.geometry[m] / x.next_geometry; // METHODS (14)
         const float scale = jacobian / x.pdf_w;
         const bool is_lit = (c.bsdf.f_cos.x[m] > 0) | (c.bsdf.f_cos.y[m] > 0) | (c.bsdf.f_cos.z[m] > 0);
         c.lit[m] = is_lit ? c.sight.valid[m] : 0;
@@ -138,14 +139,14 @@ const VertexConnection& Shift::connect_vertex(int i, EdgeGroup& edges) {
         edges.exists[m] = c.lit[m];
     }
     edges_to_point(tracer_, *y_, c.sight.direction, next.position, next.geometric_normal, edges.segments);
-    tell_of(c.reached, [&](int m) {
+    notify(c.reached, [&](int m) {
         onlooker_->joins(m, {i, c.bsdf.pdf_w[m], false, c.sight.geometry[m] / x.next_geometry, c.prefix.ratio[m],
                              c.prefix.value[m]});
     });
     return c;
 }
 
-/// x_{i+1} gives light itself: both strategies could have ended there.
+/// Shifts the light path that ends at the emission of x_{i+1}. P has the pdfs of both strategies there.
 void Shift::shift_hit(const VertexConnection& c) {
     const BaseVertex& x = base(c.vertex);
     const Vertex& next = base(c.vertex + 1).vertex;
@@ -156,20 +157,20 @@ void Shift::shift_hit(const VertexConnection& c) {
     OffsetRow& row = paths_->row(slot);
     for (int m = 0; m < padded(y_->count()); ++m) {
         const bool faces = direction.x[m] * normal.x + direction.y[m] * normal.y + direction.z[m] * normal.z < 0;
-        // The connection's prefix has the pdf of BSDF sampling alone, over the base's alone.
+        // J / P_k; the prefix of the connection has only the pdf of BSDF sampling.
         const float scale = c.sight.geometry[m] / (x.next_geometry * (x.pdf_w + x.hit_pdf_w));
         const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m]) * scale;
         row.set(m, faces && c.lit[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * front.radiance * scale);
     }
-    tell_of(c.lit, [&](int m) {
+    notify(c.lit, [&](int m) {
         onlooker_->ends(m, slot,
                         last_step(slot, m, c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m],
                                   c.sight.geometry[m] / x.next_geometry));
     });
 }
 
-/// Shifts the light sample of x_{i+1}, which the offsets see from other directions than the base. Nothing else
-/// changes.
+/// Shifts the light sample of x_{i+1} through the new edge. Only the direction to the previous vertex differs
+/// there.
 void Shift::shift_light_beyond(const VertexConnection& c) {
     const int next = c.vertex + 1, slot = light_->emitter_slot(next), count = y_->count();
     if (!light_->is_alive(slot))
@@ -185,13 +186,13 @@ void Shift::shift_light_beyond(const VertexConnection& c) {
     for (int m = 0; m < padded(count); ++m)
         row.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] * bsdf_counts + l.pdf_w) * scale,
                 c.prefix.value[m] * beyond_.f_cos[m] * seen->radiance * scale);
-    tell_of(c.reached, [&](int m) {
+    notify(c.reached, [&](int m) {
         onlooker_->ends_beyond(m, slot, last_step(slot, m, beyond_.pdf_w[m] * bsdf_counts + l.pdf_w, 1));
     });
 }
 
-/// All that BSDF sampling at x_{i+1} finds: a light that it meets, and the sum of what lies further on, which
-/// shares one ratio of values and one of densities.
+/// Shifts all that BSDF sampling finds beyond the join, x_{i+1}: the emitter that it hits, and the tail, whose
+/// light paths have the same r_m and c_m / c_k.
 void Shift::shift_tail(const VertexConnection& c) {
     const BaseVertex& x = base(c.vertex + 1);
     const int count = y_->count(), hit_slot = light_->hit_slot(c.vertex + 1), tail_slot = light_->tail_slot();
@@ -200,11 +201,11 @@ void Shift::shift_tail(const VertexConnection& c) {
     const float scale = 1 / (x.pdf_w * x.survival), hit_scale = 1 / (x.pdf_w + x.hit_pdf_w);
     for (int m = 0; m < padded(count); ++m) {
         const Rgb value = c.prefix.value[m] * beyond_.f_cos[m] * scale;
-        // hit_brings is the radiance times pdf_w over the summed pdfs.
+        // hit_brings / pdf_w is the radiance over the summed pdfs of this step.
         hit.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] + x.hit_pdf_w) * hit_scale, value * x.hit_brings);
         tail.set(m, c.prefix.ratio[m] * beyond_.pdf_w[m] / x.pdf_w, value * x.arriving);
     }
-    tell_of(c.reached, [&](int m) {
+    notify(c.reached, [&](int m) {
         onlooker_->ends_beyond(m, hit_slot, last_step(hit_slot, m, beyond_.pdf_w[m] + x.hit_pdf_w, 1));
         OffsetStep last = last_step(hit_slot, m, beyond_.pdf_w[m], 1);
         last.ratio = tail.ratio[m];

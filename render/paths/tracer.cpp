@@ -10,18 +10,18 @@ namespace tessera {
 
 namespace {
 
-/// The value at barycentric coordinates of an attribute given at the corners.
+/// Interpolates an attribute of the corners at barycentric coordinates.
 template <class T>
 T interpolate(T a, T b, T c, glm::vec2 barycentric) {
     return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
 }
 
-/// Derivatives of the position by u and v over the triangle that is hit. False: uv says nothing of directions.
+/// Computes the derivatives of the position by u and v. Returns false if the uvs are degenerate.
 bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& by_u, glm::vec3& by_v) {
     const glm::uvec3 t = shape.triangles[hit.triangle];
     const glm::vec3 edge1 = shape.positions[t.y] - shape.positions[t.x];
     const glm::vec3 edge2 = shape.positions[t.z] - shape.positions[t.x];
-    by_u = edge1; // without uvs, barycentric coordinates are the uv
+    by_u = edge1; // without uvs, u and v are barycentric coordinates
     by_v = edge2;
     if (shape.uvs) {
         const glm::vec2 d1 = shape.uvs[t.y] - shape.uvs[t.x], d2 = shape.uvs[t.z] - shape.uvs[t.x];
@@ -36,8 +36,8 @@ bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& b
     return std::isfinite(glm::dot(by_u, by_u) + glm::dot(by_v, by_v));
 }
 
-/// The frame about a unit normal of shading with its tangent along u, where there are uvs. Without them it lies
-/// about the triangle's normal as it happens to, which is how Mitsuba 3 has it.
+/// Returns the frame around a unit shading normal with its tangent along u. Without usable uvs the tangent
+/// depends on the triangle's normal only, as in Mitsuba 3.
 Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
     glm::vec3 by_u, by_v;
     if (!shape.uvs || !position_derivatives(shape, hit, by_u, by_v))
@@ -45,7 +45,8 @@ Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometri
     return {normal, by_u};
 }
 
-/// The unit normal of shading before relief; and the triangle's, turned to its front.
+/// Returns the interpolated unit shading normal, without bump or normal map. Sets `geometric_normal` to the
+/// triangle's normal on its front side.
 glm::vec3 shading_normal(const ShapeRecord& shape, const Hit& hit, glm::vec3& geometric_normal) {
     geometric_normal = hit.geometric_normal;
     if (!shape.normals)
@@ -56,7 +57,7 @@ glm::vec3 shading_normal(const ShapeRecord& shape, const Hit& hit, glm::vec3& ge
     const float side =
         hit.placement ? hit.placement->side(sum, geometric_normal) : glm::dot(sum, geometric_normal);
     if (side < 0)
-        geometric_normal = -geometric_normal; // as front_normal() has it
+        geometric_normal = -geometric_normal; // as in front_normal()
     glm::vec3 n = interpolate(n0, n1, n2, hit.barycentric);
     if (hit.placement)
         n = hit.placement->of_normals * n;
@@ -64,7 +65,7 @@ glm::vec3 shading_normal(const ShapeRecord& shape, const Hit& hit, glm::vec3& ge
     return length > 0 ? n * (1 / length) : geometric_normal;
 }
 
-/// -1: a two-sided material is seen from its back.
+/// Returns -1 if a two-sided material is seen from its back, else 1.
 float side_shown(const ShapeRecord& shape, glm::vec3 normal, glm::vec3 direction) {
     return shape.material->two_sided && glm::dot(normal, direction) > 0 ? -1.0f : 1.0f;
 }
@@ -73,12 +74,12 @@ Frame shading_frame(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometri
     return shape.has_frame_along_u ? frame_along_u(shape, hit, geometric_normal, normal) : Frame(normal);
 }
 
-/// The unit normal that relief makes of `normal`, on the same side.
+/// Returns `normal` changed by a bump or normal map: unit, on the same side.
 glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, glm::vec3 by_u, glm::vec3 by_v) {
     glm::vec3 bent;
     if (relief.kind == Relief::Kind::bump) {
-        // The surface moved along its normal by the height h: dp/du + n dh/du, with dp/du made tangent to the
-        // normal of shading [Blinn 1978].
+        // The surface moves along its normal by the height h: dp/du + n dh/du, with dp/du projected to the
+        // tangent plane of the shading normal [Blinn 1978].
         const glm::vec2 gradient = relief.scale * relief.map.gradient(at);
         bent = glm::cross(by_u + normal * (gradient.x - glm::dot(normal, by_u)),
                           by_v + normal * (gradient.y - glm::dot(normal, by_v)));
@@ -93,13 +94,14 @@ glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, g
     return bent * std::copysign(1 / length, glm::dot(bent, normal));
 }
 
-/// Bsdf::terminator for normals bent by an angle with this cosine [Estevez 2019, 12.3].
+/// Returns Bsdf::terminator for a normal bent by an angle with this cosine [Estevez 2019, 12.3].
 float terminator_of(const Relief& relief, float cosine) {
     const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
     return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
 }
 
-/// What a beam covers on a surface: one side lies across it, and one is the longer, the more it grazes.
+/// Returns the footprint of a beam on a surface: one side is the beam's width, the other is longer by 1 / cosine
+/// [Igehy 1999].
 TextureView::Sides sides_of(const TextureView::Beam& beam, glm::vec3 normal) {
     constexpr float least_cosine = 1e-3f;
     const float cosine = glm::dot(beam.direction, normal);
@@ -175,7 +177,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
     const ShapeRecord& shape = scene.record(hit.shape);
     v.position = ray.origin + hit.distance * ray.direction;
     if (hit.distance > 8 * scene.radius()) {
-        // From so far away, that is less exact than steps off surfaces allow for.
+        // Over long distances, the point along the ray is less exact than Intersector::off_surface() assumes.
         const glm::uvec3 t = shape.triangles[hit.triangle];
         v.position =
             interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
@@ -201,7 +203,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         set_footprint(view->sides() ? *view->sides() : sides_of(beam(), v.geometric_normal), by_u, by_v,
                       at.footprint);
     }
-    // In its place, as a copy of what was only just written, number by number, has to wait.
+    // Constructed in place: a copy would wait for the stores just made.
     new (&v.bsdf) Bsdf(shape.material->resolve(at));
     v.bsdf.terminator = -1;
     glm::vec3 bent = normal;
@@ -218,7 +220,7 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         v.bsdf.unbent_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);
     v.frame = frame;
-    // What emitter sampling finds is a point, and so must be what is found by both strategies.
+    // Emitter sampling evaluates points. Emission that both strategies can find must not be filtered either.
     v.emitted = !shape.emission_map  ? shape.emitted
                 : view && width >= 0 ? shape.emission_map->filtered(at)
                                      : shape.emission_map->evaluate(at);
@@ -226,13 +228,12 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
 }
 
 FeatureSample feature_sample_along(const Tracer& tracer, Ray ray, const Random& random) {
-    constexpr int most_bounces =
-        8; // limits paths through glass; albedos in mirrors follow base paths to max_depth
+    constexpr int most_bounces = 8; // through glass; paths in mirrors follow base paths to max_depth
     FeatureSample sample{Rgb(0), {Rgb(1)}};
     SurfaceFeatures& features = sample.features;
     float length = 0;
     Vertex x;
-    bool is_seen_in_mirrors = true; // and in no glass
+    bool is_seen_in_mirrors = true; // and through no glass
     Tracer::TextureLookup seen = tracer.first_lookup();
     float width = tracer.view.first_width();
     for (int i = 1; tracer.closest(ray, x, RayKind::feature, seen); ++i) {
@@ -240,12 +241,13 @@ FeatureSample feature_sample_along(const Tracer& tracer, Ray ray, const Random& 
         length += distance;
         const bool is_mirror = x.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors();
         if (is_seen_in_mirrors)
-            sample.albedo =
-                i > 1 || is_mirror ? tracer.albedo_in_mirrors(features.albedo, i, &x) : x.bsdf.albedo(x.to_previous);
+            sample.albedo = i > 1 || is_mirror ? tracer.albedo_in_mirrors(features.albedo, i, &x)
+                                               : x.bsdf.albedo(x.to_previous);
         is_seen_in_mirrors = is_seen_in_mirrors && is_mirror;
         const bool is_mirror_or_glass = x.bsdf.roughness() <= 0;
-        const int most = is_seen_in_mirrors ? std::max(tracer.settings.max_depth, most_bounces) : most_bounces;
-        const auto s = is_mirror_or_glass && i < most
+        const int bounce_limit =
+            is_seen_in_mirrors ? std::max(tracer.settings.max_depth, most_bounces) : most_bounces;
+        const auto s = is_mirror_or_glass && i < bounce_limit
                            ? x.sample(random.draw(i, Draw::lobe), random.draw_2d(i, Draw::direction))
                            : std::nullopt;
         if (!s) {

@@ -12,7 +12,7 @@ namespace tessera {
 
 namespace {
 
-/// The file: this, the identity, the state. Read by the program that wrote it, on the machine that wrote it.
+/// Head of a checkpoint file; identity and state follow. Layout and byte order are those of the writing program.
 struct CheckpointHeader {
     char magic[8] = {'T', 'S', 'S', 'R', 'C', 'K', 'P', '1'};
     std::uint64_t identity_bytes = 0;
@@ -57,7 +57,7 @@ namespace {
     throw std::runtime_error(path.string() + ": " + why);
 }
 
-/// A checkpoint's file, read up to its state.
+/// A checkpoint file that was read up to its state.
 struct OpenedCheckpoint {
     CheckpointHeader header;
     std::string identity;
@@ -71,16 +71,16 @@ OpenedCheckpoint open_checkpoint(const std::filesystem::path& path) {
     if (!opened.rest || !opened.rest.read(reinterpret_cast<char*>(&header), sizeof header) ||
         std::memcmp(header.magic, CheckpointHeader().magic, sizeof header.magic) != 0)
         fail(path, "is not a checkpoint");
-    // Sizes are looked at before memory is asked for.
+    // Sizes of a damaged file could demand any amount of memory.
     const std::uint64_t rest = std::filesystem::file_size(path) - sizeof header;
     if (header.identity_bytes > rest || header.state_bytes != rest - header.identity_bytes)
-        fail(path, "is damaged: its length is not what its head says");
+        fail(path, "is damaged: its length differs from the one in its header");
     opened.identity.resize(header.identity_bytes);
     opened.rest.read(opened.identity.data(), static_cast<std::streamsize>(header.identity_bytes));
     return opened;
 }
 
-/// Reads the state into the memory, which has its size.
+/// Reads the state into memory of the same size, and verifies the checksum.
 void read_state(OpenedCheckpoint& opened, const std::filesystem::path& path, const Memory& memory) {
     std::uint32_t sum = checksum(bytes_of(opened.identity));
     for (std::span<std::byte> piece : memory) {

@@ -7,31 +7,30 @@
 
 namespace tessera {
 
-/// What a checkpoint file holds: from it a long job goes on as if it had never ended.
+/// Contents of a checkpoint file, from which an interrupted job continues with the same bits.
 struct Checkpoint {
-    std::string identity; ///< of the job, in its own words: it decides whether it can go on from here
+    std::string identity; ///< text of the job, by which it recognises its own checkpoints
     std::vector<std::byte> state;
 };
 
-/// Writes the memory to a temporary name beside `path` that is then renamed. Throws std::runtime_error that names
+/// Writes the memory to a temporary file beside `path` and then renames it. Throws std::runtime_error that names
 /// the file.
 void write_checkpoint(const std::filesystem::path& path, const std::string& identity, const Memory& memory);
 
-/// Reads a checkpoint. Throws std::runtime_error that names the file where it is none, or damaged.
+/// Reads a checkpoint. Throws std::runtime_error that names the file if it is no checkpoint, or damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
-/// The identity alone. Throws as read_checkpoint does, but does not look at the state.
+/// Reads the identity only. Throws as read_checkpoint() does, but does not verify the checksum.
 std::string read_identity(const std::filesystem::path& path);
 
-/// Fills the memory from the file, of which nothing else is held in memory. Throws std::runtime_error that names
-/// the file where it is no checkpoint, or of another size; or damaged: then the memory holds anything.
+/// Reads the state from the file directly into the memory. Throws std::runtime_error that names the file if it is
+/// no checkpoint, has another size, or is damaged. The contents of the memory are undefined after damage.
 void restore(const std::filesystem::path& path, const Memory& memory);
 
-/// Whether the memory has the size that it had when the checkpoint was written.
+/// Returns whether the memory has the size of the checkpoint's state.
 bool fits(const Checkpoint& checkpoint, const Memory& memory);
 
-/// Fills the memory, which must have the sizes that it had when the checkpoint was written. Throws
-/// std::runtime_error where it has not, and has then written nothing.
+/// Copies the state into the memory. Throws std::runtime_error, and leaves the memory unchanged, unless fits().
 void restore(const Checkpoint& checkpoint, const Memory& memory);
 
 } // namespace tessera

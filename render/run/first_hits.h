@@ -11,24 +11,23 @@ namespace tessera {
 
 class Scene;
 
-/// What the camera sees first through the middle of each pixel; 0 where it sees nothing.
+/// The first surface that the camera sees through the middle of each pixel; 0 where it sees nothing.
 struct FirstHits {
-    RgbImage albedo;    ///< share of light that would be scattered to the camera if it came from everywhere
-    RgbImage normal;    ///< of shading, unit, in the world
-    Image<float> depth; ///< distance from the camera, in units of the scene
-    /// How wide the footprint of a path is at x_1 and x_2 (PathDifferentials): the root of its area, in units of
-    /// the scene, the median of five paths through each pixel; 0 where they do not come that far. Empty: not asked
-    /// for.
+    RgbImage albedo;    ///< directional albedo toward the camera
+    RgbImage normal;    ///< shading normal, unit, world space
+    Image<float> depth; ///< distance from the camera, scene units
+    /// Square roots of the areas of footprints at x_1 and x_2 (Footprint), scene units: medians of five paths
+    /// through each pixel; 0 where paths have no such vertex. Empty: not requested.
     Image<float> footprint_1, footprint_2;
 };
 
-/// Traces one ray a pixel, or five paths where footprints are asked for, in the calling thread. Empty
-/// images: stopped on the way.
+/// Traces one ray per pixel, and five paths for footprints, in the calling thread. Returns empty images if it was
+/// stopped.
 FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 size, bool with_footprints = false,
                            std::stop_token stop = {});
 
-/// How far away is what the camera sees at a place of a picture of that size, pixels from its top left; 0:
-/// nothing.
+/// Returns the distance to the first surface, in scene units; 0: the camera sees nothing.
+/// @param place  point of a picture of that size, in pixels from its top left corner
 float first_hit_distance(const Scene& scene, const Camera& camera, glm::vec2 place, glm::ivec2 size);
 
 } // namespace tessera

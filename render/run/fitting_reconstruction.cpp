@@ -16,13 +16,17 @@ Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const Gradie
     const int width = images.primal.width(), height = images.primal.height();
     const Norm norm = applied(settings.norm, images.has_gradients());
     const std::string what = fmt::format("{}x{} pixels reconstructed by {}", width, height, to_string(norm));
-    const ReconstructionSize size{width,   height, images.has_gradients(), !images.demodulation.empty(),
-                                  static_cast<int>(images.parts.size()), threads};
+    const ReconstructionSize size{width,
+                                  height,
+                                  images.has_gradients(),
+                                  !images.demodulation.empty(),
+                                  static_cast<int>(images.parts.size()),
+                                  threads};
     const std::uint64_t all = reconstructor.bytes_for(size, norm);
     const auto beside_kept = [&](std::uint64_t bytes) {
         return bytes - std::min(bytes, reconstructor.bytes_kept());
     };
-    // Others may need memory, too.
+    // Twice the need, because other parts of the program may need memory, too.
     reconstructor.set_keeps(is_memory_free(2 * beside_kept(all + Reconstructor::bytes_to_keep(width, height))));
     ask_for_memory(beside_kept(all), what);
     return with_memory_for(what, [&] { return reconstructor.reconstruct(images, settings, parallel_for, watch); });

@@ -4,9 +4,9 @@
 
 namespace tessera {
 
-/// Does what Reconstructor::reconstruct does, once it has asked for the memory that it takes on so many threads.
-/// Throws OutOfMemory with the figures where there is too little; the images, and where the solvers stood, are
-/// then as they were. What the reconstructor can do without it keeps only where there is room for it.
+/// Calls Reconstructor::reconstruct() if there is enough memory for it on so many threads. Otherwise throws
+/// OutOfMemory with the figures, and leaves images and reconstructor unchanged. Lets the reconstructor keep its
+/// optional data only if there is memory to spare.
 Reconstruction reconstruct_if_it_fits(Reconstructor& reconstructor, const GradientImages& images,
                                       const ReconstructionSettings& settings,
                                       const ParallelFor& parallel_for = serial_for, int threads = 1,

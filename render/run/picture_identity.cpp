@@ -34,8 +34,8 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
 
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size) {
     nlohmann::json identity = settings_json(subject.source, settings, size, 0, {});
-    for (const char* other : {"spp", "alpha", "variables"})
-        identity.erase(other);
+    for (const char* ignored : {"spp", "alpha", "variables"})
+        identity.erase(ignored);
     identity["camera"] = parse_json(camera_json(subject.camera));
     identity["scene"] = to_string(checksums_of(subject.scene->description(), subject.camera));
     return to_text(identity);
@@ -50,12 +50,12 @@ std::string identity_difference(const std::string& theirs, const std::string& mi
         return "another version of the program";
     if (a["camera"] != b["camera"])
         return "another camera";
-    const auto mine_is = scene_checksums_from(b.at("scene").get<std::string>());
-    const auto theirs_is =
+    const auto my_scene = scene_checksums_from(b.at("scene").get<std::string>());
+    const auto their_scene =
         a.at("scene").is_string() ? scene_checksums_from(a.at("scene").get<std::string>()) : std::nullopt;
-    if (!mine_is || !theirs_is)
+    if (!my_scene || !their_scene)
         return "another version of the program";
-    const std::string parts = difference(*theirs_is, *mine_is);
+    const std::string parts = difference(*their_scene, *my_scene);
     return parts.empty() ? "" : "another scene (other " + parts + ")";
 }
 

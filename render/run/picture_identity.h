@@ -16,23 +16,24 @@ namespace tessera {
 
 class Scene;
 
-/// Everything that decides the picture, as JSON: it goes into the header of every image and into the stats.
-/// Of the reconstruction it has what all norms have in common.
+/// Returns everything that determines the picture, as JSON, for the headers of images and for statistics. Of the
+/// reconstruction it contains alpha only.
 nlohmann::json settings_json(const SceneSource& scene, RenderSettings settings, glm::ivec2 size, int spp,
                              const ReconstructionSettings& reconstruction);
 
-/// What a picture shows.
+/// Scene and view of a picture.
 struct PictureSubject {
     SceneSource source;
     std::shared_ptr<const Scene> scene;
-    Camera camera; ///< the scene's, or another
+    Camera camera; ///< need not be the scene's own
 };
 
-/// What decides a picture's bits, but for the number of samples, as JSON: version, size, settings, camera, and the
-/// checksums of all that was loaded of the scene, wherever its files lie.
+/// Returns everything except the number of samples that determines a picture's bits, as JSON: version, size,
+/// settings, camera, and checksums of the loaded scene. It does not depend on the location of files.
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size);
 
-/// How `theirs` differs from `mine`: "another scene", "another camera", "width 640, not 320"; empty: it does not.
+/// Describes how `theirs` differs from `mine`: "another scene", "another camera", "width 640, not 320"; empty:
+/// they are equal.
 std::string identity_difference(const std::string& theirs, const std::string& mine);
 
 } // namespace tessera

@@ -19,8 +19,8 @@ namespace {
 constexpr const char* reference_attribute = "tessera:reference";
 constexpr const char* scene_attribute = "tessera:scene";
 
-/// Whether there is nothing, or a surface that is black, whose Bsdf::albedo is 0.01, or a mirror that shows
-/// either.
+/// Returns whether a pixel sees nothing or a black surface, directly or in a mirror. Bsdf::albedo() of black
+/// surfaces is 0.01.
 bool sees_black(const GradientImages& images, std::size_t i) {
     if (images.demodulation.empty())
         return false;
@@ -67,9 +67,9 @@ RgbImage variance_of(const ReferenceImage& reference) {
 
 void KnownPixels::look_at(const GradientImages& images) {
     const RgbImage clamped = clamped_radiance(images);
-    for (std::size_t i = 0; i < ruled_.size(); ++i) {
+    for (std::size_t i = 0; i < fireflies_.size(); ++i) {
         if (!is_black(clamped.data()[i]))
-            ruled_.data()[i] = 1;
+            fireflies_.data()[i] = 1;
         if (!is_black(images.radiance().data()[i]) || !is_black(images.very_direct.data()[i]) ||
             sees_black(images, i))
             dark_.data()[i] = 0;
@@ -77,7 +77,7 @@ void KnownPixels::look_at(const GradientImages& images) {
 }
 
 Image<float> KnownPixels::unknown() const {
-    Image<float> unknown = ruled_;
+    Image<float> unknown = fireflies_;
     for (std::size_t i = 0; i < unknown.size(); ++i)
         unknown.data()[i] = std::max(unknown.data()[i], dark_.data()[i]);
     return unknown;
@@ -92,7 +92,7 @@ Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>&
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             sum += static_cast<double>(std::abs(mean_at(x, y)));
-    const auto least = static_cast<float>(0.01 * sum / static_cast<double>(halves[0].size()));
+    const auto dark = static_cast<float>(0.01 * sum / static_cast<double>(halves[0].size()));
     Image<float> doubt(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -104,7 +104,7 @@ Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>&
                     squares += error * error;
                     brightness += std::abs(mean_at(i, j));
                 }
-            const float scale = brightness / static_cast<float>(count) + least;
+            const float scale = brightness / static_cast<float>(count) + dark;
             const float error = std::sqrt(squares / static_cast<float>(count));
             doubt(x, y) = std::max(scale > 0 ? error / scale : 0, unknown(x, y));
         }
@@ -165,8 +165,7 @@ ReferenceImage read_reference(const std::filesystem::path& path) {
     try {
         reference.seeds = parse_json(file.attributes[reference_attribute]).at("seeds");
     } catch (const nlohmann::json::exception&) {
-        throw std::runtime_error(
-            fmt::format("{}: is no reference: its header does not say which seeds it has", path.string()));
+        throw std::runtime_error(fmt::format("{}: is not a reference: its header has no seeds", path.string()));
     }
     reference.settings = file.attributes["tessera:settings"];
     reference.camera = file.attributes["tessera:camera"];

@@ -33,7 +33,7 @@ std::array<RgbImage, 2> reconstructed_halves(const ReferenceRecipe& recipe, Imag
     std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < 2; ++i) {
         const GradientImages images = images_of(i);
-        Reconstructor reconstructor; // no warm start: the halves are independent
+        Reconstructor reconstructor; // a cold start keeps the halves independent
         halves[i] = reconstruct_if_it_fits(reconstructor, images, settings).image;
     }
     return halves;
@@ -73,10 +73,10 @@ PassRange passes_of(const ReferenceRecipe& recipe) {
     const auto [number, count] = recipe.share;
     const std::int64_t all = (std::int64_t{recipe.spp} + 1) / 2;
     if (number < 1 || number > count)
-        throw std::invalid_argument(fmt::format("share {} of {}: there is none", number, count));
+        throw std::invalid_argument(fmt::format("there is no share {} of {}", number, count));
     if (count > all)
-        throw std::invalid_argument(fmt::format(
-            "{} shares of {} samples a pixel: at most {}, one a sample of each half", count, recipe.spp, all));
+        throw std::invalid_argument(fmt::format("{} shares are too many for {} samples per pixel: the limit is {}",
+                                                count, recipe.spp, all));
     const auto begin_of = [&](int share) { return static_cast<int>(all * (share - 1) / count); };
     return {begin_of(number), begin_of(number + 1) - begin_of(number)};
 }
@@ -88,8 +88,7 @@ ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject su
       wanted_(recipe.share.is_all() ? recipe.spp : 2 * passes_of(recipe).count) {
     if (recipe.settings.path_guiding != Guiding::off)
         throw std::invalid_argument(
-            "path guiding is not off: references are made without it, as what they would have "
-            "learnt is not in their checkpoints");
+            "references need path guiding off, because their checkpoints do not store what it learns");
     if (std::filesystem::exists(reference_checkpoint(output_)))
         resume();
 }
@@ -147,13 +146,13 @@ ReferenceImage ReferenceRender::finish() {
     ReferenceImage reference = reference_of(halves_, recipe_, subject_.source,
                                             checksums_of(subject_.scene->description(), subject_.camera));
     write_reference(output_, reference);
-    std::filesystem::remove(reference_checkpoint(output_)); // not before the picture is there
+    std::filesystem::remove(reference_checkpoint(output_)); // only after the reference is written
     return reference;
 }
 
 void ReferenceRender::finish_share() {
     write_checkpoint(output_, share_header(subject_, recipe_), memory());
-    std::filesystem::remove(reference_checkpoint(output_)); // not before the share is there
+    std::filesystem::remove(reference_checkpoint(output_)); // only after the shard is written
 }
 
 Memory ReferenceRender::memory() {
@@ -171,7 +170,7 @@ void ReferenceRender::resume() {
     const Checkpoint checkpoint = read_checkpoint(file);
     const auto refuse = [&](const std::string& what) {
         throw std::runtime_error(
-            fmt::format("{} is of {}; without that file the reference is begun anew", file.string(), what));
+            fmt::format("{} is of {}; delete that file to start the reference again", file.string(), what));
     };
     if (const std::string difference = identity_difference(checkpoint.identity, identity_); !difference.empty())
         refuse(difference);

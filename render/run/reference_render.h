@@ -15,11 +15,11 @@
 
 namespace tessera {
 
-/// The seeds of a reference are this and the next, unless others are asked for.
+/// Default seed of a reference's first half; the second half has the next seed.
 inline constexpr std::uint64_t first_reference_seed = 1001;
 
-/// The settings of a reference's halves: G-PR with tiles of 8x8 pixels (not tuned) and without path guiding, whose
-/// state is not in checkpoints.
+/// Returns the settings of a reference's halves: G-PR with tiles of 8x8 pixels (not tuned) and without path
+/// guiding, whose state is not in checkpoints.
 RenderSettings reference_settings();
 
 /// A shard of a reference: one of `count` parts of its passes.
@@ -35,8 +35,8 @@ struct PassShare {
 struct ReferenceRecipe {
     RenderSettings settings = reference_settings(); ///< of one half; the other has the next seed
     glm::ivec2 size{640, 360};
-    int spp = 512; ///< samples a pixel of both halves together; one more if it is odd
-    /// Of both halves. L2 is linear in the raw samples, and so unbiased.
+    int spp = 512; ///< samples per pixel of both halves together; odd numbers are rounded up
+    /// Reconstruction of both halves. L2 is linear in the raw samples, and so unbiased.
     ReconstructionSettings reconstruction{.norm = Norm::l2};
     double checkpoint_seconds = 60; ///< wall time between checkpoints
     PassShare share;                ///< the shard to render (reference_share.h)
@@ -46,53 +46,54 @@ struct ReferenceRecipe {
 /// nothing that was rendered, so the default, l2, has no bias (recon/norm.h).
 ReconstructionSettings reconstruction_of(const ReferenceRecipe& recipe);
 
-/// The passes of a shard in each of the two halves.
+/// Passes of a shard, in each of the two halves.
 struct PassRange {
     int first, count;
 };
-/// Throws std::invalid_argument for a shard number above the count, and for more shards than passes.
+/// Returns the passes of the recipe's shard. Throws std::invalid_argument for a shard number above the count, and
+/// for more shards than passes.
 PassRange passes_of(const ReferenceRecipe& recipe);
 
-/// Makes the reference of two halves that have all passes of the recipe. Empties their films.
+/// Makes the reference from two halves with all passes of the recipe. Frees their films.
 ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
                             const SceneSource& source, const SceneChecksums& scene);
 
-/// The file of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr.
+/// Returns the path of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr.
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
                                      glm::ivec2 size, int depth);
 
-/// The file beside a reference from which it goes on when its making was ended early.
+/// Returns the path of a reference's checkpoint, beside its output.
 std::filesystem::path reference_checkpoint(const std::filesystem::path& output);
 
-/// A reference in the making: two halves that grow together, and a checkpoint. Whatever ends the program, the next
-/// one for the same file goes on from there, and comes to the same bits as one that was never ended.
+/// Renders a reference: two halves, a pass of each in turn, with checkpoints. After an interruption, another
+/// object for the same file continues from the checkpoint to the same bits.
 class ReferenceRender {
 public:
-    /// Goes on from the checkpoint, if there is one. Throws std::runtime_error for one of another subject or other
-    /// settings, or that cannot be read. `pool` must live as long.
+    /// Continues from the checkpoint if there is one. Throws std::runtime_error if it is of another subject or
+    /// other settings, or cannot be read. Keeps a reference to `pool`.
     ReferenceRender(std::filesystem::path output, PictureSubject subject, const ReferenceRecipe& recipe,
                     ThreadPool& pool);
 
-    /// A watch of a reference: it is shown the render before each pass, and says whether to go on.
+    /// Is called before each pass, and returns whether to continue.
     using Watch = std::function<bool(const ReferenceRender&)>;
 
-    /// Renders until it is complete, or `watch` says no, or `stop` is asked for, which is looked at within a pass;
-    /// then writes a last checkpoint. True: it is complete.
+    /// Renders until the reference is complete, and then returns true. If `watch` returns false, or after a stop
+    /// request, which can end a pass early, writes a checkpoint and returns false.
     bool run(const Watch& watch, const std::stop_token& stop = {});
 
     int spp() const { return halves_[0].spp() + halves_[1].spp(); }           ///< of both halves
-    int spp_wanted() const { return wanted_; }                                ///< of the recipe, or of its share
-    int spp_resumed() const { return spp_resumed_; }                          ///< those of the checkpoint
-    double seconds() const { return seconds_of_halves() - seconds_resumed_; } ///< wall time of passes since
+    int spp_wanted() const { return wanted_; }                                ///< of the recipe or its shard
+    int spp_resumed() const { return spp_resumed_; }                          ///< from the checkpoint
+    double seconds() const { return seconds_of_halves() - seconds_resumed_; } ///< wall time since the checkpoint
     double seconds_left() const;                                              ///< infinite before the first pass
     /// Returns the error of the mean of the halves so far; both need a sample. Costs two reconstructions.
     FloorFreeError error_so_far() const;
-    /// The two renders as they are so far.
+    /// The two halves with their passes so far.
     const std::array<Render, 2>& halves() const { return halves_; }
 
-    /// Writes the reference once it is complete, and only then takes the checkpoint away. Nothing may follow.
+    /// Writes the complete reference, and then removes the checkpoint. Frees the films: no other call may follow.
     ReferenceImage finish();
-    /// Likewise where it is a share of one: writes the file that merge_shares reads.
+    /// Writes the complete shard for merge_shares(), and then removes the checkpoint.
     void finish_share();
 
 private:

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Values by the ids of their settings, from which they are set again.
+/// Returns the values of all settings by their ids, for set_texts().
 template <class Settings>
 json texts_of(Settings& settings) {
     json texts;
@@ -37,11 +37,11 @@ void set_texts(Settings& settings, const json& texts) {
         setting.set_text(texts.at(std::string(setting.id)).get<std::string>());
 }
 
-/// What a share's header says.
+/// Header of a shard's file.
 struct ShareFile {
     fs::path file;
     json header;
-    ReferenceRecipe recipe; ///< its share among it
+    ReferenceRecipe recipe; ///< includes the shard's number
     SceneSource source;
     Camera camera;
     SceneChecksums scene;
@@ -58,14 +58,14 @@ ReferenceRecipe recipe_from(const json& header) {
     header.at("spp").get_to(recipe.spp);
     header.at("share").get_to(recipe.share.number);
     header.at("shares").get_to(recipe.share.count);
-    passes_of(recipe); // throws where there is no such share
+    passes_of(recipe); // throws if there is no such shard
     return recipe;
 }
 
 ShareFile read_header(const fs::path& file) {
     const json header = parse_json(read_identity(file));
     if (!header.is_object() || !header.contains("shares"))
-        throw std::runtime_error(fmt::format("{}: is no share of a reference", file.string()));
+        throw std::runtime_error(fmt::format("{}: is not a share of a reference", file.string()));
     try {
         const json& source = header.at("source");
         const auto scene = scene_checksums_from(header.at("identity").at("scene").get<std::string>());
@@ -78,15 +78,15 @@ ShareFile read_header(const fs::path& file) {
                 scene.value()};
     } catch (const std::exception& error) {
         throw std::runtime_error(
-            fmt::format("{}: is a share by another version of the program ({})", file.string(), error.what()));
+            fmt::format("{}: is a share from another version of the program ({})", file.string(), error.what()));
     }
 }
 
-/// Throws where the share is not one of those that the first is of.
+/// Throws if two shards are of different references.
 void check_belongs(const ShareFile& share, const ShareFile& first) {
     const auto refuse = [&](const std::string& what) {
-        throw std::runtime_error(fmt::format("{} and {} do not belong together: the one is of {}",
-                                             share.file.string(), first.file.string(), what));
+        throw std::runtime_error(fmt::format("{} and {} cannot be merged: the first is of {}", share.file.string(),
+                                             first.file.string(), what));
     };
     if (const std::string other =
             identity_difference(to_text(share.header["identity"]), to_text(first.header["identity"]));
@@ -99,7 +99,7 @@ void check_belongs(const ShareFile& share, const ShareFile& first) {
             refuse(fmt::format("{} {}, not {}", key, to_text(share.header[key]), to_text(first.header[key])));
 }
 
-/// Throws where shares are missing, or there twice.
+/// Throws if shards are missing or repeated.
 void check_complete(const std::vector<ShareFile>& shares) {
     std::map<int, fs::path> files;
     for (const ShareFile& share : shares)
@@ -113,7 +113,7 @@ void check_complete(const std::vector<ShareFile>& shares) {
         if (!files.contains(number))
             missing += fmt::format("{}{}", missing.empty() ? "" : ", ", number);
     if (!missing.empty())
-        throw std::runtime_error(fmt::format("of {} shares these are missing: {}", count, missing));
+        throw std::runtime_error(fmt::format("these of {} shares are missing: {}", count, missing));
 }
 
 std::array<Render, 2> empty_halves(const ShareFile& share) {

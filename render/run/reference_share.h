@@ -1,4 +1,4 @@
-// Shares of a reference: files of what some of its passes have summed, which are added up to the whole.
+// Shards of a reference: files with the sums of some of its passes, which merge_shares() adds up.
 #pragma once
 
 #include "render/run/picture_identity.h"
@@ -11,18 +11,18 @@
 
 namespace tessera {
 
-/// What decides the bits of a share, as JSON: picture_identity, and, where it is not all, which share it is of how
-/// many samples.
+/// Returns everything that determines the bits of a shard, as JSON: picture_identity(), and the shard's number and
+/// the samples per pixel unless it is the whole reference.
 std::string share_identity(const PictureSubject& subject, const ReferenceRecipe& recipe);
 
-/// The identity of a share's file, as JSON: all that merging it with others takes, the scene not loaded.
+/// Returns the identity of a shard's file, as JSON: everything that merge_shares() needs without loading the
+/// scene.
 std::string share_header(const PictureSubject& subject, const ReferenceRecipe& recipe);
 
-/// Adds the shares of a reference up, one after the other from the first to the last, in whatever order they are
-/// given and wherever they were rendered: to the same bits for the same number of shares. Holds two of them in
-/// memory at a time. Writes the reference to `output`. Throws std::runtime_error that names the file for one that
-/// is no share, or damaged, or that is of another scene, camera, version, of other settings, or of another number
-/// of shares than the first; and that says which shares are missing or there twice.
+/// Adds the shards of a reference, and writes the reference to `output`. The bits depend on the number of shards,
+/// and not on the order of `files` or the machines. Holds two shards in memory at a time. Throws
+/// std::runtime_error that names the file if it is no shard or is damaged, or if it differs from the first one in
+/// scene, camera, settings, version or number of shards; and one that lists missing or repeated shards.
 ReferenceImage merge_shares(const std::vector<std::filesystem::path>& files, const std::filesystem::path& output);
 
 } // namespace tessera

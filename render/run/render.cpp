@@ -38,7 +38,7 @@ std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
     return static_cast<std::uint64_t>(threads) * Worker::bytes(settings);
 }
 
-/// Throws std::runtime_error for a size that no image has, or no memory.
+/// Returns the size. Throws std::runtime_error if it is invalid, OutOfMemory if the film does not fit.
 glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
     check_image_size(size.x, size.y);
     ask_for_memory(Film::bytes(size.x, size.y, buffers_of(settings)),
@@ -59,7 +59,7 @@ Render::Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::iv
 }
 
 std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int threads) {
-    // At the end each sum stands beside the mean and the variance that are made of it, one sum at a time.
+    // take_images() frees each group of sums after use. Only the means of the last group come on top of all sums.
     const std::size_t a_pixel =
         sizeof(Rgb) + sizeof(float) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
         FeatureImages::bytes_a_pixel +
@@ -76,38 +76,38 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
            std::max(means, bytes_of_threads(threads, settings) + std::max(found, first));
 }
 
-/// Tiles are moved about from pass to pass, but the noise of a pass is alike all over a tile. Where tiles are cut,
-/// it is so in smaller squares: this is the most.
+/// Sets the edge of the squares of pixels with correlated noise to that of a tile. Split tiles have smaller
+/// squares.
 GradientImages Render::with_patch(GradientImages images) const {
     if (reuses_paths(settings_.method))
         images.patch = static_cast<float>(settings_.tile);
     return images;
 }
 
-/// How far a pass is: pieces of its pilot, if it has one, and of itself.
-class Render::Share {
+/// Progress of a pass: finished cells of its pilot pass, if it has one, and finished blocks.
+class Render::Progress {
 public:
-    Share(std::atomic<float>* told, std::size_t pieces) : told_(told), pieces_(static_cast<float>(pieces)) {
-        if (told_)
-            *told_ = 0;
+    Progress(std::atomic<float>* result, std::size_t total) : result_(result), total_(static_cast<float>(total)) {
+        if (result_)
+            *result_ = 0;
     }
-    void expect(std::size_t pieces) { pieces_ = static_cast<float>(pieces); } ///< while nobody adds any
-    void add(std::ptrdiff_t pieces) {
-        const float share = static_cast<float>(done_ += pieces) / pieces_;
-        if (!told_)
+    void set_total(std::size_t total) { total_ = static_cast<float>(total); } ///< not concurrently with add()
+    void add(std::ptrdiff_t count) {
+        const float fraction = static_cast<float>(done_ += count) / total_;
+        if (!result_)
             return;
-        // Threads may come here in another order than they have counted.
-        for (float last = *told_; last < share && !told_->compare_exchange_weak(last, share);)
+        // Threads can get here in another order than that of their counts.
+        for (float last = *result_; last < fraction && !result_->compare_exchange_weak(last, fraction);)
             ;
     }
 
 private:
-    std::atomic<float>* told_;
-    float pieces_;
+    std::atomic<float>* result_;
+    float total_;
     std::atomic<std::ptrdiff_t> done_ = 0;
 };
 
-/// Workers, one a thread of the pool.
+/// One worker per thread of the pool.
 class Render::Workers {
 public:
     Workers(const Render& render, ThreadPool& pool, std::stop_token stop) : pool_(pool), stop_(std::move(stop)) {
@@ -116,7 +116,7 @@ public:
                                                     render.learned_.guiding()));
     }
 
-    /// Has `work(i, worker)` done for all i below count. False: stopped on the way.
+    /// Calls `work(i, worker)` for all i below count. Returns false if it was stopped.
     template <class Work>
     bool for_each(std::size_t count, const Work& work) {
         pool_.parallel_for(
@@ -139,7 +139,7 @@ private:
     std::vector<std::unique_ptr<Worker>> all_;
 };
 
-/// Pre-pass: finds the edges of directly visible emitters and the projections before the first pass. Returns false
+/// Pre-pass: finds the edges of directly visible emitters, and the projections s^l of METHODS (30). Returns false
 /// if it was stopped; its results are then incomplete.
 bool Render::pre_pass(Workers& workers) {
     const Pass pass(*scene_, camera_, size_, settings_, learned_, 0);
@@ -175,16 +175,16 @@ bool Render::find_mixed_pixels(Workers& workers) {
 
 /// Pilot pass: measures the gain of path reuse. Its samples are not part of the picture, and its counters are not
 /// part of the render's.
-bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share) {
+bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Progress& progress) {
     if (!learned_.wants_pilot())
         return true;
-    LearnedReuse learned(size_, settings_); // not learned_, which may have been told before, if no pass followed
+    LearnedReuse learned(size_, settings_); // not learned_: a stopped first call may have taught it
     const Pilot pilot(*scene_, camera_, size_, settings_, learned);
     Workers workers(*this, pool, stop);
     std::vector<CellStatistics> found(static_cast<std::size_t>(learned.cell_count()));
     if (!workers.for_each(found.size(), [&](int i, Worker& worker) {
             found[i] = pilot.explore(learned.cell(i), worker);
-            share.add(1);
+            progress.add(1);
         }))
         return false;
     learned.learn(found);
@@ -194,7 +194,7 @@ bool Render::send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& sh
     return true;
 }
 
-bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* share) {
+bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* progress) {
     const auto start = std::chrono::steady_clock::now();
     const auto done_before = std::ranges::count(done_blocks_, 1);
     if (spp_ == 0)
@@ -202,29 +202,29 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     const bool is_begun = spp_ > 0 || done_before > 0;
     const bool has_pilot = !is_begun && learned_.wants_pilot();
     const std::size_t cells = has_pilot ? static_cast<std::size_t>(learned_.cell_count()) : 0;
-    Share told(share, cells + done_blocks_.size());
-    told.add(done_before);
-    if (!is_begun && !send_pilot(pool, stop, told))
+    Progress tracker(progress, cells + done_blocks_.size());
+    tracker.add(done_before);
+    if (!is_begun && !send_pilot(pool, stop, tracker))
         return false;
     const Pass pass(*scene_, camera_, size_, settings_, learned_, first_pass_ + spp_);
     const std::vector<PixelRect> blocks = blocks_of(pass);
-    told.expect(cells + blocks.size());
+    tracker.set_total(cells + blocks.size());
     Workers workers(*this, pool, stop);
     if (!is_begun && !pre_pass(workers))
         return false;
     if (has_positions(settings_) && (!is_begun || !learned_.mixed())) {
-        Workers again(*this, pool, stop); // a render that continues has counted these samples
-        if (!find_mixed_pixels(is_begun ? again : workers))
+        Workers uncounted(*this, pool, stop); // a restored render has counted these samples
+        if (!find_mixed_pixels(is_begun ? uncounted : workers))
             return false;
     }
     workers.for_each(blocks.size(), [&](int i, Worker& worker) {
         std::uint8_t& is_done = done_blocks_[i];
         if (is_done)
-            return; // before the pass was stopped
+            return; // finished in an earlier, stopped call
         render_block(pass, blocks[i], worker, film_);
         found_[i] = worker.found;
         is_done = 1;
-        told.add(1);
+        tracker.add(1);
     });
     const auto done = std::ranges::count(done_blocks_, 1);
     if (done == done_before)
@@ -240,8 +240,8 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* sh
     return is_whole;
 }
 
-/// What is worked out between passes, in the calling thread. What passes go by is new whenever there are twice as
-/// many, so that all that go by the same can have their numbers of one net (Pass::random).
+/// Learns from the finished pass, in the calling thread. The state that passes use changes after 1, 2, 4, 8, ...
+/// passes only, so that all passes with the same state have random numbers of one net (Pass::random).
 void Render::learn_from_pass() {
     const double before = thread_cpu_seconds();
     std::ranges::fill(done_blocks_, std::uint8_t{0});

@@ -20,27 +20,27 @@ class Scene;
 /// A render in progress: a film and the state from which the next pass continues.
 class Render {
 public:
-    /// Throws std::runtime_error for a size, OutOfMemory where its film cannot be had, std::invalid_argument for
-    /// settings outside their limits.
-    /// @param scene       may be null where no pass is to be made: for what is restored, or added up
-    /// @param first_pass  from 0 on: passes are those of one that begins with 0, but for what it would have learnt
-    ///                    in the passes before, and the numbers of those that go by it
+    /// Throws std::runtime_error for an invalid size, OutOfMemory if the film does not fit, std::invalid_argument
+    /// for settings outside their limits.
+    /// @param scene       may be null if no pass follows, as for restored sums
+    /// @param first_pass  index of the first pass, >= 0, on which random numbers depend. The render learns from
+    /// its
+    ///                    own passes only, not from those before it.
     Render(std::shared_ptr<const Scene> scene, const Camera& camera, glm::ivec2 size,
            const RenderSettings& settings, int first_pass = 0);
 
-    /// The most memory that a render takes on so many threads, and means of its passes.
+    /// Returns an upper bound on the memory of a render with so many threads, including the means.
     static std::uint64_t bytes(glm::ivec2 size, const RenderSettings& settings, int threads);
 
-    /// Takes one more sample at every pixel. False: stopped on the way, within a block of pixels. The next call
-    /// goes on with the blocks that are left, to the same bits; before that, nothing is to be asked of the
-    /// picture. Throws OutOfMemory where the first has none for its threads.
-    /// @param share  is told, from the pool's threads, which share of the pass is done, from 0 on, the pilot of
-    /// the
-    ///               first one included; null: nobody wants to know
-    bool pass(ThreadPool& pool, std::stop_token stop = {}, std::atomic<float>* share = nullptr);
+    /// Takes one more sample at every pixel. Returns false if it was stopped. The next call then continues with
+    /// the remaining blocks, to the same bits; until then the sums of the picture are incomplete. The first call
+    /// throws OutOfMemory if the memory for the pool's threads is missing.
+    /// @param progress  receives the finished fraction of the pass, in [0, 1], including the pilot pass, from the
+    ///                  pool's threads; may be null
+    bool pass(ThreadPool& pool, std::stop_token stop = {}, std::atomic<float>* progress = nullptr);
 
     int spp() const { return spp_; }
-    double seconds() const { return seconds_; }         ///< wall time of all passes, those stopped among them
+    double seconds() const { return seconds_; }         ///< wall time of all passes, including stopped ones
     double cpu_seconds() const { return cpu_seconds_; } ///< CPU time of all workers
     const Counters& counters() const { return counters_; }
     const RenderSettings& settings() const { return settings_; }
@@ -63,10 +63,10 @@ public:
     Memory memory();
 
 private:
-    class Share;
+    class Progress;
     class Workers;
 
-    bool send_pilot(ThreadPool& pool, const std::stop_token& stop, Share& share);
+    bool send_pilot(ThreadPool& pool, const std::stop_token& stop, Progress& progress);
     bool pre_pass(Workers& workers);
     bool find_mixed_pixels(Workers& workers);
     void learn_from_pass();

@@ -14,23 +14,23 @@ namespace tessera {
 
 namespace {
 
-/// Later by so many of the system's steps.
-void give_way(int steps) {
-    constexpr int last = 19;
+/// Raises the nice value of the calling thread by `steps`.
+void lower_priority(int steps) {
+    constexpr int lowest = 19;
     errno = 0;
-    const int now = getpriority(PRIO_PROCESS, 0); // on Linux: of the calling thread
+    const int nice = getpriority(PRIO_PROCESS, 0); // on Linux: of the calling thread
     if (errno == 0)
-        setpriority(PRIO_PROCESS, 0, std::min(now + steps, last));
+        setpriority(PRIO_PROCESS, 0, std::min(nice + steps, lowest));
 }
 
 } // namespace
 
 void work_in_background() {
-    give_way(10);
+    lower_priority(10);
 }
 
 void work_behind_others() {
-    give_way(15);
+    lower_priority(15);
 }
 
 double thread_cpu_seconds() {
@@ -66,10 +66,10 @@ ThreadPool::ThreadPool(int threads, Priority priority) {
     try {
         for (int worker = 1; worker < wanted; ++worker)
             threads_.emplace_back([=, this] { work(worker, priority); });
-    } catch (const std::exception&) { // too many for the system, or for the memory that their stacks take
+    } catch (const std::exception&) { // too many threads, or no memory for their stacks
         const int started = size();
         end_threads();
-        throw std::runtime_error("the system starts no more than " + std::to_string(started) + " threads of the " +
+        throw std::runtime_error("the system started only " + std::to_string(started) + " threads of the " +
                                  std::to_string(wanted) + " asked for");
     }
 }
@@ -99,7 +99,7 @@ void ThreadPool::parallel_for(int count, const std::function<void(int, int)>& bo
     wake_.notify_all();
     loop.run(0, mutex_);
     std::unique_lock lock(mutex_);
-    loop_ = nullptr; // whoever has not come by now need not
+    loop_ = nullptr; // threads that have not joined the loop yet skip it
     done_.wait(lock, [&] { return loop.workers_inside == 0; });
     if (loop.error)
         std::rethrow_exception(loop.error);
@@ -141,7 +141,7 @@ ParallelFor ThreadPool::loops() {
 
 ParallelFor ThreadPool::row_loops() {
     return [this](int count, const std::function<void(int)>& body) {
-        std::vector<int> begins; // of runs
+        std::vector<int> begins; // first iteration of each run, then the end
         for (int begin = 0; begin < count; begin += std::max(1, (count - begin) / (4 * size())))
             begins.push_back(begin);
         begins.push_back(count);

@@ -12,15 +12,15 @@
 
 namespace tessera {
 
-/// The random numbers of a pass: where in their pixels and on the lens its paths begin, and those that they draw.
-/// The former, and what is drawn at x_1, are nets over the passes; each of these has the point of the pass, with
-/// digits turned over by a pattern of the pixel's own, or of those that begin at the same place. The patterns at
-/// x_1 are nets as well, over blocks of pixels.
+/// Random numbers of one pass: the positions of its camera rays in the pixel and on the lens, and the numbers
+/// that its paths draw. Positions and the numbers at x_1 are nets over the passes. Every pixel uses the point of
+/// the pass with a digital shift, the exclusive or with a pattern. Pixels with the same position share a pattern.
+/// The patterns at x_1 are nets, too, over blocks of pixels.
 class PassNumbers {
 public:
-    /// @param begin_at_x1  pass with which the nets at x_1 begin. It selects the net, so that the points are
-    ///                     independent of all that earlier passes have learnt. The nets of positions begin with
-    ///                     pass 0.
+    /// @param begin_at_x1  pass with which the nets at x_1 begin. It selects the net, so the points are
+    ///                     independent of everything learned from earlier passes. The nets of positions begin
+    ///                     with pass 0.
     /// @param positions  camera positions from which a pass sees some pixels. They have a net of their own, with
     ///                   as many points for each pass.
     PassNumbers(std::uint64_t seed, int pass, int begin_at_x1, int positions)
@@ -30,54 +30,54 @@ public:
           block_key_(Random::mix(Random::mix(seed + 4) + static_cast<std::uint64_t>(begin_at_x1))),
           first_block_(block_key_ % block_size, (block_key_ >> 32) % block_size) {
         for (int i = 0; i < positions; ++i)
-            several_.push_back(position(i, positions));
+            positions_.push_back(position(i, positions));
         for (std::size_t v = 0; v < variants; ++v)
-            for (std::size_t i = 0; i < at_x1_[v].size(); ++i)
-                at_x1_[v][i] = point({begin_at_x1, positions_of_nets + i}, v);
-        for (std::size_t pixel = 0; pixel < of_pixels_.size(); ++pixel)
-            for (std::size_t i = 0; i < of_pixels_[pixel].size(); ++i)
-                of_pixels_[pixel][i] =
+            for (std::size_t i = 0; i < pass_points_[v].size(); ++i)
+                pass_points_[v][i] = point({begin_at_x1, positions_of_nets + i}, v);
+        for (std::size_t pixel = 0; pixel < pixel_patterns_.size(); ++pixel)
+            for (std::size_t i = 0; i < pixel_patterns_[pixel].size(); ++i)
+                pixel_patterns_[pixel][i] =
                     net_point(static_cast<std::uint32_t>(pixel), Random::mix(block_key_ - 1 - i));
     }
 
-    /// In place of the number of a position: that of the pixels that the pass sees from one.
+    /// Stands for the position of pixels that the pass sees from one position.
     static constexpr int only = -1;
 
-    /// Within a pixel, uniform in [0, 1)^2.
-    /// @param place     a number of those that begin there
-    /// @param path      of several of a pixel; each has numbers of its own
-    /// @param position  of several from which a pixel is seen; or `only`
+    /// Returns a point within the pixel, uniform in [0, 1)^2.
+    /// @param place     key of all pixels with the same position
+    /// @param path      index among several paths of a pixel; each has its own numbers
+    /// @param position  index among several positions of a pixel; or `only`
     glm::vec2 subpixel(std::uint32_t place, int path, int position = only) const {
         return unit_square(at(position).subpixel ^ shift_of(place, path).digits(0, Draw::direction));
     }
-    /// Uniform in [0, 1)^2, to be mapped to the lens.
+    /// Returns a point on the lens, uniform in [0, 1)^2 before the map to the disk.
     glm::vec2 lens(std::uint32_t place, int path, int position = only) const {
         return unit_square(at(position).lens ^ shift_of(place, path).digits(1, Draw::direction));
     }
-    /// At which of several positions the base path of a pixel is shared: any is as likely, whatever the numbers
-    /// are, and pixels side by side have different ones (a lattice of rank 1).
+    /// Returns the position at which a pixel's base path is reused. All positions have the same probability,
+    /// independent of all other numbers. Adjacent pixels have different positions (rank-1 lattice).
     int turn(glm::ivec2 pixel) const {
-        const int count = static_cast<int>(several_.size()), row = (3 * count + 4) / 8;
+        const int count = static_cast<int>(positions_.size()), row = (3 * count + 4) / 8;
         return (pixel.x + row * pixel.y + first_turn_) % count;
     }
-    /// Those that a pixel's path draws. At x_1 they are points of the pass, whose digits are turned over by points
-    /// of a second net, over a block of pixels in Z-order [Morton 1966]: of these aligned squares of 2x2, 4x4, 8x8
-    /// and 16x16 are spread evenly in each pass, and each pixel over the passes. Of two nets taken together some
-    /// effects are measured worse than by chance, and others exactly; so nets of two purposes have one of several
-    /// variants in each block, which have nothing to do with each other, and another order there; and where a
-    /// choice is made, and something drawn of what is chosen, rows and columns are exchanged.
+    /// Returns the numbers of a pixel's path. At x_1 they are points of the pass with digital shifts from a
+    /// second net, over a block of 16x16 pixels in Z-order [Morton 1966, Ahmed 2020]. So aligned squares of 2x2,
+    /// 4x4, 8x8 and 16x16 pixels are stratified in each pass, and each pixel is stratified over the passes. Two
+    /// nets can be correlated, which raises the variance of some integrands. So each block draws, for each
+    /// purpose, one of several independent variants of the net and an order of its pixels. Choices (of a light,
+    /// of a lobe) exchange rows and columns of the block relative to the numbers used for the chosen item.
     Random of_path(glm::ivec2 pixel, int path) const {
         const glm::ivec2 place = pixel + first_block_, within = place % block_size;
         const auto block = static_cast<std::uint32_t>(place.y / block_size) << 16 |
                            static_cast<std::uint32_t>(place.x / block_size);
-        const std::size_t of_choices = z_order(within.x) | z_order(within.y) << 1,
-                          of_others = z_order(within.y) | z_order(within.x) << 1;
+        const std::size_t choice_order = z_order(within.x) | z_order(within.y) << 1,
+                          other_order = z_order(within.y) | z_order(within.x) << 1;
         Random::Points points;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const std::uint64_t of_block = Random::mix(block_key_ + std::uint64_t{block} * points.size() + i);
-            const std::size_t turned = (of_block >> 32) % of_pixels_.size();
-            const std::size_t order = is_choice(static_cast<Draw>(i)) ? of_choices : of_others;
-            points[i] = at_x1_[of_block % variants][i] ^ of_pixels_[order ^ turned][i];
+            const std::uint64_t block_hash = Random::mix(block_key_ + std::uint64_t{block} * points.size() + i);
+            const std::size_t order_shift = (block_hash >> 32) % pixel_patterns_.size();
+            const std::size_t order = is_choice(static_cast<Draw>(i)) ? choice_order : other_order;
+            points[i] = pass_points_[block_hash % variants][i] ^ pixel_patterns_[order ^ order_shift][i];
         }
         return {seed_of(path), pixel_number(pixel), static_cast<std::uint32_t>(pass_),
                 Random::Net{block, static_cast<std::uint32_t>(begin_at_x1_), points}};
@@ -88,7 +88,7 @@ private:
 
     static bool is_choice(Draw purpose) { return purpose == Draw::emitter || purpose == Draw::lobe; }
 
-    /// The digits, each two places apart.
+    /// Moves the four binary digits of i two places apart.
     static std::size_t z_order(int i) {
         const auto digits = static_cast<std::size_t>(i);
         return (digits & 1) | (digits & 2) << 1 | (digits & 4) << 2 | (digits & 8) << 3;
@@ -97,14 +97,14 @@ private:
     static constexpr std::size_t variants = 16, positions_of_nets = 2,
                                  nets = positions_of_nets + std::tuple_size_v<Random::Points>;
 
-    /// Digits of points, as net_point() has them.
+    /// Digits of net_point().
     struct Position {
         std::uint64_t subpixel, lens;
     };
 
     struct Net {
         int begin;
-        std::size_t number; ///< of those that begin with the pass
+        std::size_t number; ///< index among the nets that begin with the pass
     };
 
     std::uint64_t point(Net net, std::uint64_t variant) const {
@@ -113,7 +113,7 @@ private:
                          Random::mix(Random::mix(seed_ + 1) + number) + variant);
     }
 
-    const Position& at(int position) const { return position == only ? only_ : several_[position]; }
+    const Position& at(int position) const { return position == only ? only_ : positions_[position]; }
     Position position(int i, int count) const {
         const auto index = static_cast<std::uint32_t>(pass_ * count + i);
         const std::uint64_t key = Random::mix(seed_ + 3);
@@ -125,19 +125,19 @@ private:
     }
 
     Random shift_of(std::uint32_t place, int path) const {
-        return {Random::mix(seed_of(path)), place, 0xfffffffdu}; // no pass
+        return {Random::mix(seed_of(path)), place, 0xfffffffdu}; // no pass has this number
     }
 
     std::uint64_t seed_;
     int pass_;
     int begin_at_x1_;
     Position only_;
-    std::vector<Position> several_;
+    std::vector<Position> positions_;
     int first_turn_;
     std::uint64_t block_key_;
-    glm::ivec2 first_block_; ///< how far the grid of blocks is moved to the left, and up: another way for each net
-    std::array<Random::Points, variants> at_x1_;
-    std::array<Random::Points, block_size * block_size> of_pixels_; ///< patterns
+    glm::ivec2 first_block_; ///< offset of the grid of blocks to the left and up, pixels; random for each net
+    std::array<Random::Points, variants> pass_points_;
+    std::array<Random::Points, block_size * block_size> pixel_patterns_; ///< digital shifts
 };
 
 } // namespace tessera

@@ -17,7 +17,7 @@ namespace tessera {
 inline constexpr float pi = 3.14159265358979323846f;
 inline constexpr float inv_pi = 1 / pi;
 
-/// An orthonormal frame; `normal` is its z axis.
+/// Orthonormal frame; `normal` is its z axis.
 struct Frame {
     glm::vec3 tangent;
     glm::vec3 bitangent;
@@ -25,7 +25,7 @@ struct Frame {
 
     Frame() = default;
 
-    /// A frame around a unit normal [Duff 2017].
+    /// Builds a frame around a unit normal [Duff 2017].
     explicit Frame(glm::vec3 n) : normal(n) {
         const float sign = std::copysign(1.0f, n.z);
         const float a = -1.0f / (sign + n.z);
@@ -34,8 +34,8 @@ struct Frame {
         bitangent = {b, sign + n.y * n.y * a, -n.y};
     }
 
-    /// A frame around a unit normal whose tangent points toward `along`, as far as it can; any, where that is the
-    /// normal itself, or not finite.
+    /// Builds a frame around a unit normal whose tangent is the projection of `along`. The tangent is arbitrary
+    /// if `along` is parallel to the normal or not finite.
     Frame(glm::vec3 n, glm::vec3 along) : Frame(n) {
         const glm::vec3 across = glm::cross(n, along);
         const float length2 = glm::dot(across, across);
@@ -53,14 +53,15 @@ struct Frame {
     }
 };
 
-/// How far a vector goes along a and along b, of what lies in their plane; 0 0 where they span none.
+/// Returns the coordinates, in units of a and b, of v projected onto the plane of a and b; (0, 0) if these are
+/// parallel.
 inline glm::vec2 coordinates_along(glm::vec3 v, glm::vec3 a, glm::vec3 b) {
     const float aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b), determinant = aa * bb - ab * ab;
     const float va = glm::dot(v, a), vb = glm::dot(v, b);
     return determinant > 0 ? glm::vec2(bb * va - ab * vb, aa * vb - ab * va) / determinant : glm::vec2(0);
 }
 
-/// Sine and cosine of an angle in [-pi/4, pi/4], by their series; to the last bit but one.
+/// Returns sine and cosine of an angle in [-pi/4, pi/4] by their Taylor series, exact to about the last bit.
 inline glm::vec2 sin_cos_quarter(float angle) {
     const float a2 = angle * angle;
     const float sine =
@@ -69,7 +70,7 @@ inline glm::vec2 sin_cos_quarter(float angle) {
     return {sine, cosine};
 }
 
-/// Sine and cosine of `turns` times 2 pi, for turns in [0, 1].
+/// Returns sine and cosine of 2 pi `turns`, for turns in [0, 1].
 inline glm::vec2 sin_cos_of_turns(float turns) {
     const int quarter = static_cast<int>(4 * turns + 0.5f); // the nearest one
     const glm::vec2 sc = sin_cos_quarter(pi / 2 * (4 * turns - static_cast<float>(quarter)));
@@ -78,8 +79,8 @@ inline glm::vec2 sin_cos_of_turns(float turns) {
     return {quarter & 2 ? -sine : sine, (quarter + 1) & 2 ? -cosine : cosine};
 }
 
-/// atan2(y, x) within 3e-7, also where both are 0; several times quicker than the library's, and the same bits
-/// with all of these. The series is that of Moshier's Cephes, about 0 or about an eighth of a turn.
+/// Returns atan2(y, x) with an error of at most 3e-7; 0 if both are 0. It is faster than std::atan2 and returns
+/// the same bits with every library. The series, about 0 or about pi/4, is from Moshier's Cephes.
 inline float angle_of(float y, float x) {
     const float ax = std::abs(x), ay = std::abs(y);
     const float larger = std::max(ax, ay), smaller = std::min(ax, ay);
@@ -95,7 +96,7 @@ inline float angle_of(float y, float x) {
     return std::copysign(angle, y);
 }
 
-/// Uniform on the unit disk, by concentric rings [Shirley and Chiu 1997].
+/// Samples the unit disk uniformly with the concentric map [Shirley and Chiu 1997].
 inline glm::vec2 sample_disk(glm::vec2 u) {
     const float x = 2 * u.x - 1;
     const float y = 2 * u.y - 1;
@@ -107,24 +108,23 @@ inline glm::vec2 sample_disk(glm::vec2 u) {
     return wide ? glm::vec2(sc.y, sc.x) : sc;
 }
 
-/// A direction about +z with pdf_w = cos / pi.
+/// Samples a direction of the hemisphere about +z with pdf_w = cos / pi.
 inline glm::vec3 sample_cosine_hemisphere(glm::vec2 u) {
     const glm::vec2 d = sample_disk(u);
     return {d.x, d.y, std::sqrt(std::max(1 - d.x * d.x - d.y * d.y, 0.0f))};
 }
 
-/// Barycentric coordinates (of the second and third corner), uniform on a triangle.
+/// Samples a triangle uniformly; returns the barycentric coordinates of its second and third corner.
 inline glm::vec2 sample_triangle(glm::vec2 u) {
     const float root = std::sqrt(1 - u.x);
     return {1 - root, u.y * root};
 }
 
-/// Chooses an index in proportion to its weight, in a time that does not depend on how many there are
-/// [Walker 1974, Vose 1991].
+/// Chooses an index with a probability in proportion to its weight, in constant time [Walker 1974, Vose 1991].
 class AliasTable {
 public:
     AliasTable() = default;
-    /// Weights are not negative; where all are 0, all probabilities are 0 and nothing may be chosen.
+    /// @param weights  at least 0; if all are 0, all probabilities are 0 and choose() must not be called
     explicit AliasTable(const std::vector<double>& weights);
 
     bool empty() const { return entries_.empty(); }
@@ -136,8 +136,8 @@ public:
         float probability;
     };
 
-    /// Chooses an entry with random numbers in [0, 1)^2. The threshold has one of its own: of one float, many
-    /// entries would leave few bits for it.
+    /// Chooses an entry with random numbers in [0, 1)^2: x chooses the slot, y decides between its two entries.
+    /// One float for both would leave few bits for y in a large table.
     Choice choose(glm::vec2 u) const {
         const auto slot = static_cast<std::size_t>(u.x * static_cast<float>(entries_.size()));
         const std::size_t first = slot < entries_.size() ? slot : entries_.size() - 1;
@@ -148,8 +148,8 @@ public:
     }
 
 private:
-    struct alignas(16) Entry { // of a large table, a choice reads one line of memory
-        float threshold;       // below it this entry, else `alias`
+    struct alignas(16) Entry { // so a choice reads one cache line
+        float threshold;       // u.y below it chooses this entry, else `alias`
         std::uint32_t alias;
         float probability, alias_probability;
     };
@@ -158,15 +158,15 @@ private:
 
 inline AliasTable::AliasTable(const std::vector<double>& weights) : entries_(weights.size()) {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    std::vector<double> share(weights.size()); // of one slot: their mean is 1
+    std::vector<double> share(weights.size()); // probability in units of a slot; their mean is 1
     std::vector<std::uint32_t> small, large;
     for (std::uint32_t i = 0; i < weights.size(); ++i) {
         share[i] = total > 0 ? weights[i] / total * static_cast<double>(weights.size()) : 0;
         entries_[i] = {1, i, 0, 0};
         (share[i] < 1 ? small : large).push_back(i);
     }
-    // A slot whose share is small gives the rest of its place to one whose share is large. What is left over at
-    // the end has a share of 1, but for rounding. Random numbers have 24 bits: finer thresholds would not be kept.
+    // A slot with a share below 1 gives the rest of its place to an entry with a larger share. Entries that
+    // remain in the end have a share of 1 up to rounding. Thresholds have 24 bits, as random numbers have.
     while (!small.empty() && !large.empty()) {
         const std::uint32_t s = small.back(), l = large.back();
         small.pop_back();
@@ -179,7 +179,7 @@ inline AliasTable::AliasTable(const std::vector<double>& weights) : entries_(wei
             small.push_back(l);
         }
     }
-    // The probabilities that the table has, after this rounding.
+    // The exact probabilities of the table with rounded thresholds.
     std::vector<double> kept(weights.size(), 0.0);
     for (const Entry& entry : entries_) {
         kept[&entry - entries_.data()] += entry.threshold;

@@ -15,7 +15,7 @@ namespace tessera {
 
 namespace {
 
-/// Half the width of the picture at distance 1 from the camera.
+/// Returns half the image's width at distance 1 from the camera.
 float half_width(float fov, FovAxis axis, float aspect) {
     const float t = std::tan(glm::radians(fov) / 2);
     switch (axis) {
@@ -64,7 +64,7 @@ Projection::Projection(const Camera& camera, glm::ivec2 size) : is_orthographic_
         direction_.corner = ahead;
         pixel_width_.least = glm::length(across.right);
     } else {
-        pixel_width_.angle = glm::length(across.right) / glm::length(ahead); // a scaled camera sees the same
+        pixel_width_.angle = glm::length(across.right) / glm::length(ahead); // independent of the camera's scale
     }
     origin_.lens_x = camera.aperture_radius * to_world[0];
     origin_.lens_y = camera.aperture_radius * to_world[1];

@@ -39,14 +39,14 @@ constexpr std::array known_fields = {"to_world",
                                      "target",
                                      "up"};
 
-/// Points at the field's value.
-[[noreturn]] void fail(const JsonText& text, const std::string& field, const std::string& what) {
-    text.fail_at(text.place_of(field), what);
+/// Throws LoadError at the position of the field's value.
+[[noreturn]] void fail(const JsonText& text, const std::string& field, const std::string& message) {
+    text.fail_at(text.place_of(field), message);
 }
 
 float number(const JsonText& text, const std::string& field, const json& value) {
     if (!value.is_number())
-        fail(text, field, fmt::format("'{}' must be made of numbers, not of {}", field, value.type_name()));
+        fail(text, field, fmt::format("'{}' must be numeric, not {}", field, value.type_name()));
     const float result = static_cast<float>(value.get<double>());
     if (!std::isfinite(result))
         fail(text, field, fmt::format("'{}' has a number that is too large", field));
@@ -63,18 +63,20 @@ const json& required(const JsonText& text, const json& object, const std::string
 glm::mat4 read_matrix(const JsonText& text, const json& value) {
     if (!value.is_array() || value.size() != 16)
         fail(text, "to_world",
-             value.is_array() ? fmt::format("'to_world' must be 16 numbers; here are {}", value.size())
-                              : fmt::format("'to_world' must be 16 numbers, not {}", value.type_name()));
+             value.is_array() ? fmt::format("'to_world' must have 16 numbers, not {}", value.size())
+                              : fmt::format("'to_world' must be a list of 16 numbers, not {}", value.type_name()));
     glm::mat4 m;
     for (int i = 0; i < 16; ++i)
         m[i % 4][i / 4] = number(text, "to_world", value[i]);
     for (int column = 0; column < 4; ++column)
         if (m[column][3] != (column == 3 ? 1.0f : 0.0f))
-            fail(text, "to_world", "the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row");
+            fail(text, "to_world",
+                 "the last four numbers of 'to_world' must be 0, 0, 0, 1 (the matrix is row by row)");
     return m;
 }
 
-/// Against the volume of a box with the axes' lengths, so that units do not matter.
+/// Returns whether the matrix is singular. The determinant is compared with the product of the axes' lengths, so
+/// that the result does not depend on the unit of length.
 bool is_flat(const glm::mat4& m) {
     const glm::dmat3 axes{glm::mat3(m)};
     const double volume = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
@@ -122,7 +124,8 @@ void read_lens(const JsonText& text, const json& object, Camera& camera) {
         fail(text, "focus_distance", "'focus_distance' must be above 0");
 }
 
-/// Nine digits tell every float from its neighbours; the point keeps the sign of -0.
+/// Formats a float so that it is read back exactly: nine digits suffice, and the decimal point keeps the sign of
+/// -0.
 std::string exact(float x) {
     std::string text = fmt::format("{:.9g}", x);
     if (text.find_first_of(".e") == std::string::npos)
@@ -134,8 +137,8 @@ std::string triple(glm::vec3 v) {
     return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
 }
 
-/// The matrix row by row, as in files. The last row is kept where it is one (with the signs of its zeros), else
-/// replaced: it means nothing to a camera, but no other is read.
+/// Returns the matrix row by row, as in files. A last row other than 0 0 0 1, which readers reject, is replaced;
+/// a valid one keeps the signs of its zeros.
 std::array<std::string, 16> rows(glm::mat4 m) {
     if (glm::row(m, 3) != glm::vec4(0, 0, 0, 1))
         m = glm::row(m, 3, glm::vec4(0, 0, 0, 1));
@@ -154,7 +157,7 @@ Camera parse_camera(const std::string& json_text, const std::string& name) {
         text.fail_at(0, fmt::format("a camera file holds one object {{...}}, not {}", object.type_name()));
     for (const auto& [field, value] : object.items())
         if (std::find(known_fields.begin(), known_fields.end(), field) == known_fields.end())
-            fail(text, field, fmt::format("a camera has no field '{}'", field));
+            fail(text, field, fmt::format("unknown camera field '{}'", field));
     Camera camera;
     camera.to_world = read_matrix(text, required(text, object, "to_world"));
     if (is_flat(camera.to_world))
@@ -200,9 +203,9 @@ std::string camera_xml(const Camera& camera) {
     const bool has_lens = camera.aperture_radius > 0;
     std::string xml;
     if (camera.is_orthographic || has_lens)
-        xml = fmt::format("<!-- of a sensor of the type {} -->\n", !camera.is_orthographic ? "thinlens"
-                                                                   : has_lens              ? "telecentric"
-                                                                                           : "orthographic");
+        xml = fmt::format("<!-- for a sensor of type {} -->\n", !camera.is_orthographic ? "thinlens"
+                                                                : has_lens              ? "telecentric"
+                                                                                        : "orthographic");
     const auto add = [&](std::string_view name, float value) {
         xml += fmt::format("<float name=\"{}\" value=\"{}\"/>\n", name, exact(value));
     };

@@ -16,15 +16,14 @@ namespace tessera {
 
 namespace {
 
-/// Cells a map is sampled by at most: about as wide as the sun. More are beyond a core's own cache, and bring
-/// little.
-constexpr glm::ivec2 most_cells(512, 256);
+/// Maximum number of sampling cells: a cell is about as wide as the sun, and the table fits a core's cache.
+constexpr glm::ivec2 max_cells(512, 256);
 
-/// The pixel at column x, which runs around, and row y, which ends at the poles.
+/// Returns the pixel at column x, which wraps around, and row y, which is clamped at the poles.
 Rgb pixel(const Bitmap& bitmap, int x, int y) {
     x = (x % bitmap.width + bitmap.width) % bitmap.width;
     return glm::max(bitmap.texel(x, std::clamp(y, 0, bitmap.height - 1)),
-                    0.0f); // some filters leave negative ones
+                    0.0f); // resampled maps can contain negative pixels
 }
 
 Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv) {
@@ -37,8 +36,8 @@ Rgb bilinear(const Bitmap& bitmap, glm::vec2 uv) {
     return glm::mix(upper, lower, y - top);
 }
 
-/// The mean of the bilinear interpolation over what is nearest to a pixel: positive wherever that is positive
-/// there. Of the rows at the poles that is half as much as of others.
+/// Returns the mean of the bilinear interpolation over the area nearest to a pixel; positive wherever the
+/// interpolation is positive there. At a pole only half of that area exists.
 double mean_luminance(const Bitmap& bitmap, int x, int y) {
     constexpr double weights[3] = {0.125, 0.75, 0.125};
     double sum = 0;
@@ -55,16 +54,16 @@ double mean_luminance(const Bitmap& bitmap, int x, int y) {
     return sum / total;
 }
 
-/// Share of the sphere above v.
-double share_above(double v) {
+/// Returns the fraction of the sphere's area above v.
+double area_above(double v) {
     return 0.5 - 0.5 * std::cos(3.14159265358979323846 * std::clamp(v, 0.0, 1.0));
 }
 
-/// The solid angle of what is nearest to a pixel of a row.
+/// Returns the solid angle of the area nearest to a pixel of a row.
 double pixel_solid_angle(const Bitmap& bitmap, int row) {
     const double steps = std::max(bitmap.height - 1, 1);
-    const double below = bitmap.height == 1 ? 1 : share_above((row + 0.5) / steps);
-    const double above = bitmap.height == 1 ? 0 : share_above((row - 0.5) / steps);
+    const double below = bitmap.height == 1 ? 1 : area_above((row + 0.5) / steps);
+    const double above = bitmap.height == 1 ? 0 : area_above((row - 0.5) / steps);
     return 4 * 3.14159265358979323846 / bitmap.width * (below - above);
 }
 
@@ -79,7 +78,7 @@ glm::vec3 direction_of_map(glm::vec2 uv) {
 
 glm::vec2 map_of_direction(glm::vec3 d) {
     const float u = angle_of(d.x, -d.z) * (0.5f * inv_pi);
-    // By both coordinates it is exact at the poles, too, where acos is not.
+    // The arctangent is accurate at the poles, where acos is not.
     return {u < 0 ? u + 1 : u, angle_of(std::sqrt(d.x * d.x + d.z * d.z), d.y) * inv_pi};
 }
 
@@ -93,15 +92,14 @@ Environment::Environment(const EnvironmentDescription& description) : descriptio
         sun_chord2_ = 4 * half_sine * half_sine;
         sun_flux_ = double(pi) * sun_chord2_ * luminance(description_.sun->radiance);
     }
-    sun_share_ = flux() > 0 ? static_cast<float>(sun_flux_ / flux()) : 0;
+    sun_probability_ = flux() > 0 ? static_cast<float>(sun_flux_ / flux()) : 0;
 }
 
 void Environment::build_cells() {
     const Bitmap& bitmap = *description_.map->bitmap;
-    // Powers of two: a random number of 24 bits then chooses all cells alike, and rows are found without a
-    // division.
-    cell_count_ = {std::bit_floor(static_cast<unsigned>(std::min(most_cells.x, bitmap.width))),
-                   std::bit_floor(static_cast<unsigned>(std::min(most_cells.y, bitmap.height)))};
+    // With powers of two, a 24-bit random number selects all cells equally often, and a shift finds the row.
+    cell_count_ = {std::bit_floor(static_cast<unsigned>(std::min(max_cells.x, bitmap.width))),
+                   std::bit_floor(static_cast<unsigned>(std::min(max_cells.y, bitmap.height)))};
     std::vector<double> weights(static_cast<std::size_t>(cell_count_.x) * static_cast<std::size_t>(cell_count_.y));
     for (int y = 0; y < bitmap.height; ++y) {
         const double solid_angle = pixel_solid_angle(bitmap, y);
@@ -116,8 +114,8 @@ void Environment::build_cells() {
     cells_ = AliasTable(weights);
     column_bits_ = std::countr_zero(static_cast<unsigned>(cell_count_.x));
     for (int row = 0; row < cell_count_.y; ++row) {
-        const double top = share_above(double(row) / cell_count_.y);
-        const double bottom = share_above((row + 1.0) / cell_count_.y);
+        const double top = area_above(double(row) / cell_count_.y);
+        const double bottom = area_above((row + 1.0) / cell_count_.y);
         rows_.push_back({static_cast<float>(1 - 2 * top), static_cast<float>(1 - 2 * bottom),
                          static_cast<float>(cell_count_.x / (4 * 3.14159265358979323846 * (bottom - top)))});
     }
@@ -125,7 +123,7 @@ void Environment::build_cells() {
 
 glm::vec2 Environment::uv_of(glm::vec3 direction) const {
     if (description_.map->bitmap->width == 1 && description_.map->bitmap->height == 1)
-        return {0.5f, 0.5f}; // constant
+        return {0.5f, 0.5f}; // the map is constant
     return map_of_direction(to_map_ * direction);
 }
 
@@ -139,7 +137,7 @@ float Environment::map_pdf_w(glm::vec2 uv) const {
     const int column = std::min(static_cast<int>(uv.x * static_cast<float>(cell_count_.x)), cell_count_.x - 1);
     const int row = std::min(static_cast<int>(uv.y * static_cast<float>(cell_count_.y)), cell_count_.y - 1);
     const auto cell = static_cast<std::size_t>(row << column_bits_ | column);
-    return (1 - sun_share_) * cells_.probability(cell) * rows_[row].density;
+    return (1 - sun_probability_) * cells_.probability(cell) * rows_[row].density;
 }
 
 bool Environment::is_on_sun(glm::vec3 direction) const {
@@ -177,13 +175,13 @@ float Environment::pdf_w(glm::vec3 direction) const {
 }
 
 EnvironmentSample Environment::sample(glm::vec2 u_cell, glm::vec2 u_position) const {
-    if (u_position.x < sun_share_)
-        return sample_sun({u_position.x / sun_share_, u_position.y});
-    return sample_map(u_cell, {(u_position.x - sun_share_) / (1 - sun_share_), u_position.y});
+    if (u_position.x < sun_probability_)
+        return sample_sun({u_position.x / sun_probability_, u_position.y});
+    return sample_map(u_cell, {(u_position.x - sun_probability_) / (1 - sun_probability_), u_position.y});
 }
 
 EnvironmentSample Environment::sample_sun(glm::vec2 u) const {
-    // Uniform on the cap: its chord's square is uniform [0, chord^2], and 1 - chord^2 / 2 is the cosine.
+    // Uniform on the cap: the squared chord is uniform in [0, sun_chord2_], and the cosine is 1 - chord^2 / 2.
     const float chord2 = u.x * sun_chord2_;
     const float sine = std::sqrt(std::max(chord2 * (1 - chord2 / 4), 0.0f));
     const glm::vec2 around = sin_cos_of_turns(u.y);
@@ -201,21 +199,22 @@ EnvironmentSample Environment::sample_map(glm::vec2 u_cell, glm::vec2 u_position
     const glm::vec2 around = sin_cos_of_turns((column + u_position.x) / static_cast<float>(cell_count_.x));
     const glm::vec3 direction =
         glm::normalize(description_.map->to_world * glm::vec3(sine * around.x, cosine, -sine * around.y));
-    const float pdf_w = (1 - sun_share_) * cell.probability * row.density;
+    const float pdf_w = (1 - sun_probability_) * cell.probability * row.density;
     return {direction, is_on_sun(direction) ? pdf_w + sun_pdf_w() : pdf_w};
 }
 
 EnvironmentDerivatives Environment::differentiate(glm::vec2 u_cell, glm::vec2 u_position) const {
-    // A point at height z and `turns` about the axis: z moves by `rise`, and turns by `turn`.
+    // Derivatives of the point at height z and azimuth `turns` (in turns) as z changes by `rise` or turns by
+    // `turn`.
     const auto on_sphere = [](float z, float rise, float turns, float turn) {
         const float sine = std::sqrt(std::max(1 - z * z, 1e-12f));
         const glm::vec2 sc = sin_cos_of_turns(turns);
         return std::pair(glm::vec3(-z / sine * rise * sc.y, -z / sine * rise * sc.x, rise),
                          2 * pi * turn * sine * glm::vec3(-sc.x, sc.y, 0));
     };
-    if (u_position.x < sun_share_) {
-        const float z = 1 - u_position.x / sun_share_ * sun_chord2_ / 2;
-        const auto [outward, around] = on_sphere(z, -sun_chord2_ / (2 * sun_share_), u_position.y, 1);
+    if (u_position.x < sun_probability_) {
+        const float z = 1 - u_position.x / sun_probability_ * sun_chord2_ / 2;
+        const auto [outward, around] = on_sphere(z, -sun_chord2_ / (2 * sun_probability_), u_position.y, 1);
         const Frame frame(description_.sun->direction);
         return {{frame.to_world(outward), frame.to_world(around)}, 1};
     }
@@ -224,8 +223,8 @@ EnvironmentDerivatives Environment::differentiate(glm::vec2 u_cell, glm::vec2 u_
     const auto column = static_cast<float>(cell.index & ((std::size_t{1} << column_bits_) - 1));
     const auto columns = static_cast<float>(cell_count_.x);
     const float z = row.top + u_position.y * (row.bottom - row.top);
-    const float turns = (column + (u_position.x - sun_share_) / (1 - sun_share_)) / columns;
-    const auto [down, around] = on_sphere(z, row.bottom - row.top, turns, 1 / (columns * (1 - sun_share_)));
+    const float turns = (column + (u_position.x - sun_probability_) / (1 - sun_probability_)) / columns;
+    const auto [down, around] = on_sphere(z, row.bottom - row.top, turns, 1 / (columns * (1 - sun_probability_)));
     const auto to_world = [&](glm::vec3 v) { return description_.map->to_world * glm::vec3(v.y, v.z, -v.x); };
     return {{to_world(around), to_world(down)}, cell.probability};
 }

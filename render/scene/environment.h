@@ -16,28 +16,28 @@ namespace tessera {
 
 struct Bitmap;
 
-/// Where a unit direction is on a map in latitude and longitude, as in Mitsuba: u = atan2(x, -z) / 2 pi in [0, 1]
-/// and v = acos(y) / pi; +y is up, v = 0 the top row. direction_of_map is the way back.
+/// Maps a unit direction to a latitude-longitude map as Mitsuba does: u = atan2(x, -z) / 2 pi in [0, 1] and v =
+/// acos(y) / pi. +y is up and v = 0 is the top row. direction_of_map is the inverse.
 glm::vec2 map_of_direction(glm::vec3 direction);
 glm::vec3 direction_of_map(glm::vec2 uv);
 
-/// Radiance from all directions, mapped as above. Pixels are interpolated bilinearly; as in Mitsuba 3 a column
-/// counts at its centre, while rows run from pole to pole: the first is at v = 0, the last at v = 1. One pixel
-/// makes a constant environment.
+/// Radiance from all directions, as a latitude-longitude map with bilinear interpolation. As in Mitsuba 3,
+/// columns are sampled at their centres, and the first and last rows lie at v = 0 and v = 1. A map of one pixel
+/// is constant.
 struct EnvironmentMap {
     std::shared_ptr<const Bitmap> bitmap;
     float scale = 1;
-    glm::mat3 to_world{1.0f}; ///< a rotation, perhaps mirrored
+    glm::mat3 to_world{1.0f}; ///< a rotation or a reflection
 };
 
 /// A disk of constant radiance at infinity.
 struct SunDisk {
-    glm::vec3 direction{0, 1, 0}; ///< toward its centre, unit, world
-    float radius = 0.004675f;     ///< as an angle, radians
+    glm::vec3 direction{0, 1, 0}; ///< toward the centre, unit, world
+    float radius = 0.004675f;     ///< angular radius, radians
     Rgb radiance{0};
 };
 
-/// What a scene has around it: light that arrives from infinity.
+/// The light that arrives from infinity: a map, a sun, both, or none.
 struct EnvironmentDescription {
     std::optional<EnvironmentMap> map;
     std::optional<SunDisk> sun;
@@ -45,47 +45,47 @@ struct EnvironmentDescription {
     bool empty() const { return !map && !sun; }
 };
 
-/// What arrives from a direction.
+/// Light from one direction.
 struct EnvironmentLight {
     Rgb radiance;
-    float pdf_w; ///< of Environment::sample(), per solid angle
+    float pdf_w; ///< pdf of Environment::sample(), per solid angle
 };
 
-/// A direction from which light may arrive.
+/// A direction drawn by Environment::sample().
 struct EnvironmentSample {
     glm::vec3 direction; ///< unit, world
-    float pdf_w;
+    float pdf_w;         ///< per solid angle
 };
 
-/// How a direction that is drawn turns with the two numbers of its place on the sun, or in a cell.
+/// Derivatives of a sampled direction by the two random numbers that place it on the sun or within a map cell.
 struct EnvironmentDerivatives {
     std::array<glm::vec3, 2> direction;
-    float cell_probability; ///< of the choice among cells; 1: it is on the sun
+    float cell_probability; ///< probability of the chosen cell; 1 if the direction is on the sun
 };
 
-/// An environment, made ready for look-ups and for sampling by luminance.
+/// An environment prepared for look-ups and for sampling in proportion to luminance.
 class Environment {
 public:
     explicit Environment(const EnvironmentDescription& description);
 
-    /// Radiance from a unit direction (world).
+    /// Returns the radiance from a unit direction (world).
     Rgb radiance(glm::vec3 direction) const;
 
-    /// Density of sample(), per solid angle. Positive wherever radiance() is.
+    /// Returns the pdf of sample() per solid angle; positive wherever radiance() is.
     float pdf_w(glm::vec3 direction) const;
 
-    /// radiance() and pdf_w() at once, which costs little more than either.
+    /// Returns radiance() and pdf_w() together, which costs little more than one of them.
     EnvironmentLight look_up(glm::vec3 direction) const;
 
-    /// A direction chosen with random numbers in [0, 1)^2: a cell of the map and a place in it, or on the sun. Its
-    /// density is that of pdf_w(), but for rounding at the edges of cells.
+    /// Samples a direction with random numbers in [0, 1)^2, which choose a map cell and a position in it, or a
+    /// position on the sun. The pdf equals pdf_w() except for rounding at the edges of cells.
     EnvironmentSample sample(glm::vec2 u_cell, glm::vec2 u_position) const;
 
-    /// Of the direction that sample() chooses with these numbers. The first of both also tells the sun from the
-    /// map, and is used again for the place there.
+    /// Differentiates sample() by u_position. u_position.x chooses between sun and map and is then rescaled for
+    /// reuse.
     EnvironmentDerivatives differentiate(glm::vec2 u_cell, glm::vec2 u_position) const;
 
-    /// Integral of the luminance over all directions; 0: it is black.
+    /// Returns the integral of the luminance over all directions; 0 if the environment is black.
     double flux() const { return map_flux_ + sun_flux_; }
 
 private:
@@ -94,25 +94,24 @@ private:
     Rgb map_radiance(glm::vec2 uv) const;
     float map_pdf_w(glm::vec2 uv) const;
     bool is_on_sun(glm::vec3 direction) const;
-    float sun_pdf_w() const { return sun_share_ / (pi * sun_chord2_); }
+    float sun_pdf_w() const { return sun_probability_ / (pi * sun_chord2_); }
     EnvironmentSample sample_sun(glm::vec2 u) const;
     EnvironmentSample sample_map(glm::vec2 u_cell, glm::vec2 u_position) const;
 
     EnvironmentDescription description_;
     glm::mat3 to_map_{1.0f};
-    // The map's sphere in cells of equal u and v, powers of two; within a cell, directions are uniform by solid
-    // angle.
+    // Cells of equal size in u and v, in powers of two; sampling is uniform by solid angle within a cell.
     struct Row {
-        float top, bottom; // cosines
-        float density;     // of a direction in one of its cells
+        float top, bottom; // cosines of the zenith angles
+        float density;     // pdf of a direction given its cell, per solid angle
     };
     glm::ivec2 cell_count_{0};
     int column_bits_ = 0;
     AliasTable cells_;
     std::vector<Row> rows_;
     double map_flux_ = 0, sun_flux_ = 0;
-    float sun_share_ = 0;  // probability that sample() takes the sun
-    float sun_chord2_ = 0; // square of the distance from the centre to the edge of the disk, on the unit sphere
+    float sun_probability_ = 0; // probability that sample() chooses the sun
+    float sun_chord2_ = 0;      // squared chord from the disk's centre to its edge on the unit sphere
 };
 
 } // namespace tessera

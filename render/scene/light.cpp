@@ -29,7 +29,7 @@ std::optional<LightRay> LightPoint::seen_without_surface(glm::vec3 receiver) con
 LightTable::LightTable(const SceneDescription& description, float radius, const std::vector<double>& factors)
     : pdf_a_(description.area_lights.size(), 0.0f), points_(description.point_lights),
       directionals_(description.directional_lights) {
-    std::vector<double> weights; // of the sources
+    std::vector<double> weights; // of sources_
     powers_.resize(description.area_lights.size(), 0.0);
     add_triangles(description, factors, weights);
     const auto add = [&](Source source, double watts) {
@@ -40,7 +40,7 @@ LightTable::LightTable(const SceneDescription& description, float radius, const 
         sources_.push_back(source);
         weights.push_back(weight);
     };
-    const double disk = double(pi) * radius * radius; // what light from infinity falls through
+    const double disk = double(pi) * radius * radius; // area through which light from infinity enters the scene
     for (std::size_t i = 0; i < points_.size(); ++i)
         add(Point{i, 0}, points_[i].power());
     for (std::size_t i = 0; i < directionals_.size(); ++i)
@@ -72,7 +72,7 @@ LightTable::LightTable(const SceneDescription& description, float radius, const 
 
 void LightTable::add_triangles(const SceneDescription& description, const std::vector<double>& factors,
                                std::vector<double>& weights) {
-    // Per area, every triangle of a light is as likely as its mean radiance is bright.
+    // Points have equal density over all triangles of a light, in proportion to its mean radiance.
     std::vector<Rgb> mean;
     for (const AreaLight& light : description.area_lights)
         mean.push_back(light.radiance.mean());
@@ -94,7 +94,7 @@ void LightTable::add_triangles(const SceneDescription& description, const std::v
             const double weight = watts * (factors.empty() ? 1.0 : factors[light]);
             powers_[light] += watts > 0 ? watts : 0;
             if (!(weight > 0))
-                continue; // no area, no light
+                continue;
             triangle.normal = front_normal(mesh, t);
             triangle.radiance = mean[light];
             triangle.light = light;
@@ -113,7 +113,7 @@ void LightTable::add_triangles(const SceneDescription& description, const std::v
             }
         }
     }
-    // A flat box has no inside for rounding to hit.
+    // The margin keeps rounding from missing a flat box.
     const glm::vec3 margin = 1e-4f * (glm::max(glm::abs(low_), glm::abs(high_)));
     low_ -= margin;
     high_ += margin;
@@ -136,7 +136,7 @@ LightPoint LightTable::sample_other(const Source& source, const Random& random, 
 
 LightPoint LightTable::environment_toward(glm::vec3 direction) const {
     LightPoint light{LightPoint::Kind::environment, direction, glm::vec3(0), Rgb(0), 0};
-    if (environment_ && glm::dot(direction, direction) > 0.5f) { // not for what is no direction
+    if (environment_ && glm::dot(direction, direction) > 0.5f) { // guards against a zero or NaN direction
         const EnvironmentLight arriving = environment_->look_up(direction);
         light.radiance = arriving.radiance;
         light.pdf = environment_probability_ * arriving.pdf_w;
@@ -149,7 +149,8 @@ bool LightTable::may_be_hit(const Ray& ray) const {
         return true;
     if (!has_triangles_)
         return false;
-    // Slabs [Kay and Kajiya 1986]; a NaN of 0 / 0, on a slab's very face, leaves the other slabs to decide.
+    // Slab test [Kay and Kajiya 1986]. 0 / 0 (NaN) arises only for a ray within a face of the padded box, where
+    // there are no emitters, or only emitters seen edge-on.
     const glm::vec3 a = (low_ - ray.origin) / ray.direction, b = (high_ - ray.origin) / ray.direction;
     float enter = 0, leave = std::numeric_limits<float>::max();
     for (int axis = 0; axis < 3; ++axis) {

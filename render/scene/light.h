@@ -26,53 +26,53 @@ namespace tessera {
 class Scene;
 struct SceneDescription;
 
-/// A mesh that gives off light on its front side, the same in every direction.
+/// Emission from the front side of a mesh; the radiance is the same in all directions.
 struct AreaLight {
     Texture radiance{Rgb(1)};
 };
 
-/// Light that arrives from one direction everywhere.
+/// Light that arrives from the same direction everywhere.
 struct DirectionalLight {
     glm::vec3 to_light{0, 0, 1}; ///< unit
-    Rgb irradiance{1};           ///< on a surface that faces it
+    Rgb irradiance{1};           ///< on a surface perpendicular to it
 };
 
-/// How a receiver sees a point on a light. (The constructor lets std::make_optional write it in its place.)
+/// A light point as seen from a receiver. The constructor allows std::make_optional to build it in place.
 struct LightRay {
     glm::vec3 direction; ///< unit, toward the light
-    Rgb radiance;        ///< that arrives; of a point the intensity, of a directional light the irradiance
-    float pdf_w;         ///< of emitter sampling per solid angle, or what stands for it where light comes from one
-                         ///< direction alone: f cos radiance / pdf_w is what emitter sampling brings
+    Rgb radiance;        ///< incident radiance; a point light's intensity; a directional light's irradiance
+    float pdf_w; ///< pdf of emitter sampling per solid angle. For point and directional lights it is defined
+                 ///< such that the estimate of emitter sampling is f cos radiance / pdf_w.
 
     LightRay(glm::vec3 direction_, Rgb radiance_, float pdf_w_)
         : direction(direction_), radiance(radiance_), pdf_w(pdf_w_) {}
 };
 
-/// The end of a light path, whoever chose it: emitter sampling, or a ray that happened to meet a light.
+/// The end of a light path at a light, found by emitter sampling or by BSDF sampling.
 struct LightPoint {
     enum class Kind : std::uint8_t { surface, point, directional, environment };
     Kind kind = Kind::surface;
-    glm::vec3 position{0}; ///< or, at infinity, the unit direction toward it
-    glm::vec3 normal{0};   ///< of a surface: unit, the side that gives light; else 0
-    Rgb radiance{0};       ///< given off toward the receiver; of a directional light its irradiance
-    float pdf = 0; ///< of emitter sampling: per area, per solid angle (environment) or a probability; does not
-                   ///< depend on the receiver
-    const PointLight* light = nullptr; ///< of a point
+    glm::vec3 position{0}; ///< at infinity: the unit direction toward the light
+    glm::vec3 normal{0};   ///< unit, on the emitting side of a surface; else 0
+    Rgb radiance{0};       ///< radiance toward the receiver; irradiance of a directional light
+    float pdf = 0; ///< pdf of emitter sampling, independent of the receiver: per area (surface), per solid angle
+                   ///< (environment), or a probability (point, directional)
+    const PointLight* light = nullptr; ///< null unless kind is point
 
-    /// Whether rays can meet it, so that BSDF sampling could have found it, too.
+    /// Returns whether BSDF sampling can find this light, too.
     bool can_be_hit() const { return kind == Kind::surface || kind == Kind::environment; }
     bool is_at_infinity() const { return kind == Kind::directional || kind == Kind::environment; }
     float distance_from(glm::vec3 receiver) const {
         return is_at_infinity() ? std::numeric_limits<float>::infinity() : glm::distance(position, receiver);
     }
 
-    /// The light as a receiver at that point sees it, without what may stand between; empty: no light goes that
-    /// way.
+    /// Returns the light as seen from a receiver, ignoring occlusion; empty if it sends no light there. Converts
+    /// the pdf of a surface point from area to solid angle.
     std::optional<LightRay> seen_from(glm::vec3 receiver) const {
         if (kind != Kind::surface)
             return seen_without_surface(receiver);
         const glm::vec3 d = position - receiver;
-        const float facing = -glm::dot(d, normal); // cos times the distance
+        const float facing = -glm::dot(d, normal); // cosine times distance
         if (!(facing > 0))
             return {};
         const float distance2 = glm::dot(d, d);
@@ -89,24 +89,23 @@ private:
 /// An emitting triangle.
 struct LightTriangle {
     glm::vec3 corner, edge1, edge2;
-    glm::vec3 normal; ///< unit, the side that gives light
+    glm::vec3 normal; ///< unit, on the emitting side
     Rgb radiance;
-    float pdf_a;       ///< of choosing this triangle and a point on it, per area
+    float pdf_a;       ///< pdf of choosing this triangle and a point on it, per area
     std::size_t light; ///< index of its area light
 
-    // Where radiance varies, its texture is looked up, for which one must know which triangle of which mesh this
-    // is.
-    const Texture* radiance_map = nullptr;
-    const Mesh* mesh = nullptr;
-    std::size_t index = 0;
+    const Texture* radiance_map = nullptr; ///< textured radiance; null: `radiance` holds
+    const Mesh* mesh = nullptr;            ///< set with radiance_map, for its look-ups
+    std::size_t index = 0;                 ///< triangle of `mesh`
 
-    /// Whether it sends light toward a point, from anywhere on it.
+    /// Returns whether a point lies on the emitting side.
     bool faces(glm::vec3 point) const { return glm::dot(point - corner, normal) > 0; }
-    /// Of the point that sample() takes, by both numbers.
+    /// Returns the derivatives of the point that sample() returns, by u.x and u.y.
     std::array<glm::vec3, 2> differentiate(glm::vec2 u) const {
         const float root = std::sqrt(1 - u.x);
         return {(edge1 - u.y * edge2) / (2 * root), root * edge2};
     }
+    /// Sets `point` to a point that is uniform on the triangle.
     void sample(glm::vec2 u, LightPoint& point) const {
         const glm::vec2 b = sample_triangle(u);
         point.kind = LightPoint::Kind::surface;
@@ -117,36 +116,34 @@ struct LightTriangle {
     }
 };
 
-/// How a point that emitter sampling draws moves with the two numbers that say where on its light it lies
-/// (Draw::emitter_position), which is all that moves it: those of the choice among lights, and among the cells of
-/// an environment, make steps.
+/// Derivatives of a sampled light point by the two numbers of Draw::emitter_position. The numbers that choose a
+/// light or an environment cell contribute no derivative. See METHODS, "Path differentials".
 struct LightDerivatives {
-    std::array<glm::vec3, 2>
-        position{};   ///< of LightPoint::position: at infinity of the direction; 0 0: there is but one
-    float chance = 1; ///< of these choices; the area of both vectors together over that is 1 / LightPoint::pdf
+    std::array<glm::vec3, 2> position{}; ///< derivatives of LightPoint::position; 0 if the light has only one
+    float chance = 1; ///< probability of the choices; |position[0] x position[1]| / chance = 1 / LightPoint::pdf
 };
 
-/// The lights of a scene, chosen in proportion to their power and factors on it, by an alias table over all
-/// emitting triangles and all other lights: the choice costs the same for one and for thousands.
+/// The lights of a scene. An alias table over all emitting triangles and other lights makes the choice
+/// independent of their number. A light is chosen in proportion to its power times a learned factor.
 class LightTable {
 public:
     LightTable() = default;
-    /// Keeps pointers into the description. `radius` is that of a sphere around the scene: light from infinity has
-    /// power in proportion to its disk. Each light is chosen in proportion to its power times its factor, in the
-    /// order of powers(); no factors: to its power. A light of factor 0 is not there.
+    /// Keeps pointers into `description`.
+    /// @param radius   of the scene's bounding sphere; lights at infinity have power in proportion to its disk
+    /// @param factors  factors on the probabilities, in the order of powers(); empty: all 1; 0 removes a light
     LightTable(const SceneDescription& description, float radius, const std::vector<double>& factors = {});
 
-    /// Of each light, whether or not it has a factor: area lights, then points, directional lights, and the
-    /// environment, in the order of the description.
+    /// Returns the power of each light in the order of the description: area lights, point lights, directional
+    /// lights and the environment. Factors do not change it, except that an environment with factor 0 has power
+    /// 0.
     const std::vector<double>& powers() const { return powers_; }
 
     bool empty() const { return sources_.empty(); }
-    std::size_t size() const { return sources_.size(); } ///< emitting triangles and other lights
+    std::size_t size() const { return sources_.size(); } ///< number of emitting triangles and other lights
 
-    /// Chooses a point of a light with the numbers of a path's vertex. False: it surely sends no light to the
-    /// receiver. Not for an empty table. Of the environment the radiance is left black, as it is dear, and most
-    /// directions turn out to be blocked: complete() looks it up. (In place: this is where paths spend their
-    /// time.)
+    /// Samples a light point with the random numbers of a path vertex. Returns false if the point certainly sends
+    /// no light to the receiver. The table must not be empty. The radiance of an environment is left black,
+    /// because its look-up is expensive and most directions are occluded; complete() adds it.
     bool sample(glm::vec3 receiver, const Random& random, int vertex, LightPoint& point) const {
         const Source& source = sources_[choice_.choose(random.draw_2d(vertex, Draw::emitter)).index];
         const auto* triangle = std::get_if<LightTriangle>(&source);
@@ -159,23 +156,23 @@ public:
         return true;
     }
 
-    /// Of the point that sample() chooses with these numbers.
+    /// Returns the derivatives of the point that sample() chooses with the same numbers.
     LightDerivatives differentiate(const Random& random, int vertex) const;
 
-    /// Looks up the radiance that sample() has left out.
+    /// Looks up the environment radiance that sample() left out.
     void complete(LightPoint& point) const {
         if (point.kind == LightPoint::Kind::environment)
             point.radiance = environment_->radiance(point.position);
     }
 
-    /// LightPoint::pdf at any point of an area light.
+    /// Returns LightPoint::pdf (per area), which is constant over an area light.
     float pdf_a(int area_light) const { return pdf_a_[area_light]; }
 
-    /// What a ray meets that leaves the scene in a unit direction. Black without an environment.
+    /// Returns the light in a unit direction from which a ray leaves the scene; black without an environment.
     LightPoint environment_toward(glm::vec3 direction) const;
     const Environment* environment() const { return environment_.get(); } ///< null: none
 
-    /// Whether the ray may meet a light: cheaper than tracing it, where only lights count.
+    /// Returns whether the ray may meet a light; a conservative test without ray tracing.
     bool may_be_hit(const Ray& ray) const;
 
     const std::vector<PointLight>& points() const { return points_; }
@@ -206,13 +203,13 @@ private:
     std::shared_ptr<const Environment> environment_;
     float environment_probability_ = 0;
     bool has_triangles_ = false;
-    glm::vec3 low_{0}, high_{0}; // of the emitting triangles
+    glm::vec3 low_{0}, high_{0}; // bounding box of the emitting triangles
 };
 
-/// How often emitter sampling should choose each light, beside its power: factors on that, in the order of
-/// LightTable::powers(). Learnt from some hundred paths from the scene's camera, at whose ends every light is
-/// tried: by power alone, an environment around a large scene takes all samples from two spots in it. Empty: there
-/// is one light at most, or none that could be seen to bring anything. The same for any number of threads.
+/// Learns factors on the power of each light for emitter sampling, in the order of LightTable::powers(). Every
+/// light is sampled at the vertices of 144 paths from the camera, because power alone favours an environment
+/// around a large scene over lamps in it. Deterministic. Returns an empty vector for fewer than two lights with
+/// power, or if no light reaches the paths. See METHODS, "Which light is sampled".
 std::vector<double> learn_light_factors(const Scene& scene);
 
 } // namespace tessera

@@ -30,7 +30,7 @@ Rgb Slide::toward(glm::vec3 direction) const {
     if (uv != glm::clamp(uv, 0.0f, 1.0f))
         return Rgb(0);
     const Rgb color = picture.evaluate({uv});
-    // The plane at distance 1 is 1 / cos away, and tilted: it receives cos^3 of the intensity.
+    // A plane at distance 1 receives cos^3 times the intensity: it is 1 / cos away and tilted.
     return kind == Kind::share ? color : color * (pi / (cos * cos * cos));
 }
 
@@ -44,7 +44,7 @@ Rgb PointLight::toward(glm::vec3 direction) const {
     const Rgb full = slide ? intensity * slide->toward(direction) : intensity;
     if (cutoff >= 180)
         return full;
-    // acos would have no digits left for narrow cones.
+    // atan2 is accurate for narrow cones, where acos is not.
     const float angle =
         glm::degrees(std::atan2(glm::length(glm::cross(direction, axis)), glm::dot(direction, axis)));
     if (angle <= full_within)

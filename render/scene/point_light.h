@@ -10,40 +10,39 @@
 
 namespace tessera {
 
-/// A picture that a point of light shines through. It falls on what a perspective camera sees that is turned as
-/// `camera` is and stands at the light, as that camera's picture; beyond its edges there is no light.
+/// A picture that a point light projects into the field of view of a perspective camera at the light. There is no
+/// light outside the picture.
 struct Slide {
     enum class Kind {
-        share,     ///< a spot's: square, and what the intensity is multiplied by
-        irradiance ///< a projector's: as wide and high as its bitmap, and what a plane at distance 1 receives,
-                   ///< times pi
+        share,     ///< spot: a square picture, a factor on the intensity
+        irradiance ///< projector, in the bitmap's proportions; irradiance at distance 1 is pi times the picture
     };
     Texture picture{Rgb(1)};
-    Camera camera; ///< without a scale
+    Camera camera; ///< orientation and field of view; unscaled
     Kind kind = Kind::share;
 
-    /// Toward a unit direction: what the intensity is multiplied by.
+    /// Returns the factor on the intensity toward a unit direction.
     Rgb toward(glm::vec3 direction) const;
 
-    /// Mean of that over all directions that it falls on, times their solid angle, for Kind::irradiance.
+    /// Returns the integral of toward() over all directions, for Kind::irradiance.
     Rgb flux() const;
 
 private:
-    glm::ivec2 size() const; // pixels, for the picture's proportions
+    glm::ivec2 size() const; // in pixels; only its proportions matter
 };
 
-/// A point that gives off light, in all directions, within a cone, or through a slide.
+/// A point light: isotropic, limited to a cone, or projecting a slide.
 struct PointLight {
     glm::vec3 position{0};
     Rgb intensity{1};        ///< power per solid angle
-    glm::vec3 axis{0, 0, 1}; ///< unit, of the cone
-    float cutoff = 180;      ///< degrees from the axis beyond which there is no light; 180: no cone
-    float full_within = 180; ///< degrees up to which there is all of it; in between it falls linearly
+    glm::vec3 axis{0, 0, 1}; ///< of the cone, unit
+    float cutoff = 180;      ///< degrees from the axis; no light beyond; 180: no cone
+    float full_within = 180; ///< degrees from the axis with full intensity; linear falloff up to `cutoff`
     std::optional<Slide> slide{};
 
-    /// Intensity toward a unit direction.
+    /// Returns the intensity toward a unit direction.
     Rgb toward(glm::vec3 direction) const;
-    /// About all that it gives off in all directions together: a luminance times solid angle.
+    /// Returns the approximate integral of the intensity's luminance over all directions.
     double power() const;
 };
 

@@ -42,8 +42,8 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
     return record;
 }
 
-/// The opacity of each shape; null: it is opaque. So is what gives light: emitter sampling does not ask, and as in
-/// Mitsuba all of the surface shines.
+/// Returns the opacity of each shape; null if it is opaque. Emitters count as opaque: as in Mitsuba, their whole
+/// surface emits, and emitter sampling ignores opacity.
 std::vector<const Texture*> opacities_of(const SceneDescription& description) {
     std::vector<const Texture*> opacities;
     for_each_shape(description, [&](const Shape& shape) {
@@ -70,13 +70,14 @@ void add(const std::vector<Shape>& shapes, Box& box) {
             box.add(p);
 }
 
-/// Adds the corners of a box that is placed.
-void add(const Box& placed, const glm::mat4& to_world, Box& box) {
-    if (placed.is_empty())
+/// Adds the transformed corners of a group's box.
+void add(const Box& group_box, const glm::mat4& to_world, Box& box) {
+    if (group_box.is_empty())
         return;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p(corner & 1 ? placed.low.x : placed.high.x, corner & 2 ? placed.low.y : placed.high.y,
-                          corner & 4 ? placed.low.z : placed.high.z);
+        const glm::vec3 p(corner & 1 ? group_box.low.x : group_box.high.x,
+                          corner & 2 ? group_box.low.y : group_box.high.y,
+                          corner & 4 ? group_box.low.z : group_box.high.z);
         box.add(glm::vec3(to_world * glm::vec4(p, 1)));
     }
 }
@@ -99,15 +100,15 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
         std::ranges::any_of(records_, [](const ShapeRecord& record) { return record.material->may_be_mirror(); });
 }
 
-/// Finds the sphere around all triangles, for those of instances around the boxes of their groups.
+/// Computes the bounding sphere of all triangles; instances count with the boxes of their groups.
 void Scene::measure() {
     Box box;
     add(description_.shapes, box);
-    std::vector<Box> of_groups(description_.groups.size());
-    for (std::size_t i = 0; i < of_groups.size(); ++i)
-        add(description_.groups[i].shapes, of_groups[i]);
+    std::vector<Box> group_boxes(description_.groups.size());
+    for (std::size_t i = 0; i < group_boxes.size(); ++i)
+        add(description_.groups[i].shapes, group_boxes[i]);
     for (const Instance& instance : description_.instances)
-        add(of_groups[instance.group], instance.to_world, box);
+        add(group_boxes[instance.group], instance.to_world, box);
     if (!box.is_empty()) {
         center_ = 0.5f * (box.low + box.high);
         radius_ = std::max(0.5f * glm::length(box.high - box.low), std::numeric_limits<float>::min());

@@ -13,10 +13,10 @@
 
 namespace tessera {
 
-/// All that a scene file says, and nothing derived: what a loader fills in.
+/// The contents of a scene file as filled in by a loader, without derived data.
 struct SceneDescription {
     std::vector<Shape> shapes;
-    std::deque<ShapeGroup> groups; ///< seen only where instances put them; they stay in place while more come
+    std::deque<ShapeGroup> groups; ///< visible only through instances; addresses stay valid as groups are added
     std::vector<Instance> instances;
     std::vector<Material> materials;
     std::vector<AreaLight> area_lights;
@@ -24,11 +24,11 @@ struct SceneDescription {
     std::vector<DirectionalLight> directional_lights;
     EnvironmentDescription environment;
     Camera camera;
-    glm::ivec2 size{768, 576}; ///< of the film, pixels
-    int max_depth = 65; ///< edges of a light path, as in Mitsuba: 1 is emission only; -1 in a file becomes 65
+    glm::ivec2 size{768, 576}; ///< film size, pixels
+    int max_depth = 65; ///< maximum edges of a light path, as in Mitsuba; 1: emission only; a file's -1 is 65
 };
 
-/// Calls visit(shape) for all shapes, as hits count them: the scene's own, and then those of the groups.
+/// Calls visit(shape) for all shapes in the order of Hit::shape: the scene's own, then those of the groups.
 template <class Visit>
 void for_each_shape(const SceneDescription& scene, Visit&& visit) {
     for (const Shape& shape : scene.shapes)
@@ -38,26 +38,26 @@ void for_each_shape(const SceneDescription& scene, Visit&& visit) {
             visit(shape);
 }
 
-/// What a hit needs of its shape, close together; pointers into the shape's mesh.
+/// The data of a shape that shading needs, packed for locality. Pointers refer to the shape's mesh.
 struct ShapeRecord {
     const glm::uvec3* triangles;
     const glm::vec3* positions;
-    const glm::vec3* normals; ///< null: every triangle has its own normal
-    const glm::vec2* uvs;     ///< null: none, or nothing looks them up
-    const Mesh* attributed;   ///< null: it has no attributes, or nothing looks them up
+    const glm::vec3* normals; ///< null: triangles are flat
+    const glm::vec2* uvs;     ///< null: absent or unused
+    const Mesh* attributed;   ///< mesh with attributes; null: absent or unused
     const Material* material;
-    Rgb emitted;                 ///< radiance given off on the front side, where it is the same everywhere
-    const Texture* emission_map; ///< null: it is
-    float emitter_pdf_a;         ///< 0: no light
-    bool has_frame_along_u;      ///< whether frames of shading must lie along the texture's u
+    Rgb emitted;                 ///< radiance on the front side, or its mean if textured
+    const Texture* emission_map; ///< textured radiance; null: constant
+    float emitter_pdf_a;         ///< pdf of emitter sampling, per area; 0: not an emitter
+    bool has_frame_along_u;      ///< whether shading tangents must follow the texture's u
 };
 
-/// A scene ready to be rendered: immutable, shared by all who render it.
+/// A scene ready to be rendered; immutable, so that threads can share it.
 class Scene {
 public:
-    /// Builds the light tables and the BVH. Materials without area and shapes without triangles are harmless.
+    /// Builds the light table and the BVH. Unused materials and shapes without triangles are allowed.
     explicit Scene(SceneDescription description);
-    Scene(const Scene&) = delete; // records point into it
+    Scene(const Scene&) = delete; // records_ points into description_
     Scene& operator=(const Scene&) = delete;
 
     const std::vector<Shape>& shapes() const { return description_.shapes; }
@@ -68,19 +68,19 @@ public:
     int max_depth() const { return description_.max_depth; }
     const LightTable& lights() const { return lights_; }
     const Intersector& intersector() const { return intersector_; }
-    /// Of a shape as hits count them.
+    /// Returns the record of a shape by Hit::shape.
     const ShapeRecord& record(std::uint32_t shape) const { return records_[shape]; }
 
-    /// Whether anything may be a mirror (Material::may_be_mirror).
+    /// Returns whether any material may be a mirror (Material::may_be_mirror).
     bool has_mirrors() const { return has_mirrors_; }
-    /// Whether any shape is there for one ray and not for another, by its opacity.
+    /// Returns whether any shape has an opacity other than 1, so that it stops rays at random.
     bool has_masks() const { return has_masks_; }
 
-    /// A sphere around all triangles.
+    /// Bounding sphere of all triangles.
     glm::vec3 center() const { return center_; }
     float radius() const { return radius_; }
 
-    /// Of all shapes; those of a group count once.
+    /// Returns the number of triangles; those of a group count once.
     std::size_t triangle_count() const;
     double bvh_seconds() const { return bvh_seconds_; }
 
@@ -97,22 +97,21 @@ private:
     void measure();
 };
 
-/// What a scene contains, and so what a renderer must reckon with: whatever has a count of 0 needs no code and
-/// costs nothing. Only materials that some shape is made of count. An upper bound: a texture is taken to reach all
-/// its values.
+/// Counts of the features that a scene uses. Only materials that some shape uses count. Counts are upper bounds,
+/// because a texture counts with its smallest value even if no surface shows it.
 struct SceneTraits {
-    int delta_lobes = 0;      ///< materials with perfect reflection or refraction: no connection at them
-    int glossy_lobes = 0;     ///< materials with microfacets of alpha below 0.1, but not perfectly smooth
-    int transmission = 0;     ///< materials that let light through
-    int textures = 0;         ///< materials that look up any texture
-    int mesh_attributes = 0;  ///< materials that look up attributes of meshes, such as colours of vertices
+    int delta_lobes = 0;      ///< materials with perfect reflection or refraction
+    int glossy_lobes = 0;     ///< materials with microfacets of alpha below 0.1 that are not perfectly smooth
+    int transmission = 0;     ///< materials that transmit light
+    int textures = 0;         ///< materials with a texture that is not constant
+    int mesh_attributes = 0;  ///< materials that look up mesh attributes such as vertex colours
     int relief = 0;           ///< materials with a bump or normal map
     int masks = 0;            ///< materials with an opacity other than 1
-    int shading_normals = 0;  ///< shapes whose normals are interpolated
-    int instances = 0;        ///< of groups of shapes
+    int shading_normals = 0;  ///< shapes with interpolated normals
+    int instances = 0;        ///< instances of groups of shapes
     int area_lights = 0;      ///< emitting shapes
-    int point_lights = 0;     ///< lights without extent: points, spots, directions
-    bool environment = false; ///< light from infinitely far away
+    int point_lights = 0;     ///< point, spot, projector and directional lights
+    bool environment = false; ///< whether there is an environment map or a sun
 
     bool operator==(const SceneTraits&) const = default;
 };

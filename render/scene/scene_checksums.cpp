@@ -17,14 +17,14 @@ namespace tessera {
 
 namespace {
 
-/// Checksums of bitmaps, which many textures share.
+/// Checksums of bitmaps, cached because many textures share a bitmap.
 using BitmapChecksums = std::map<const Bitmap*, std::uint32_t>;
 
-/// The checksum of values, whatever they are made of. Structs are taken apart by structured bindings, which name
-/// all members: with one more, it no longer compiles, and so none is forgotten. Names of things do not count.
+/// Computes a checksum of values of any type. Structured bindings name all members of a struct, so that a new
+/// member causes a compile error instead of being forgotten. Names of objects are excluded.
 class SceneDigest {
 public:
-    /// `bitmaps` keeps what was found; it must live as long as this.
+    /// `bitmaps` is the cache; it must outlive this object.
     explicit SceneDigest(BitmapChecksums& bitmaps) : bitmaps_(bitmaps) {}
 
     template <class... Values>
@@ -41,13 +41,14 @@ private:
     struct IsVector<glm::vec<n, T, q>> : std::true_type {};
     template <glm::length_t n, glm::length_t m, class T, glm::qualifier q>
     struct IsVector<glm::mat<n, m, T, q>> : std::true_type {};
-    /// Whether the bytes of a value are all that it is: it has no padding and no pointers.
+    /// Whether the bytes of a value determine it: no padding and no pointers.
     template <class T>
     static constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || IsVector<T>::value;
 
-    /// What scenes can have only since references were made: without it, theirs are still what they were.
+    /// Adds a value only if it is not the default. A feature added to the program then leaves the checksums of
+    /// scenes without it, and so the identity of stored references, unchanged.
     template <class T>
-    void add_if_there(bool is_there, const T& value) {
+    void add_if(bool is_there, const T& value) {
         if (is_there)
             take(value);
     }
@@ -118,7 +119,7 @@ private:
 
 void SceneDigest::take(const Mesh& mesh) {
     const auto& [positions, normals, uvs, attributes, triangles] = mesh;
-    // Colours of vertices are where they were when there were no other attributes.
+    // Vertex colours have a fixed place and no name, so that checksums in stored references stay valid.
     const MeshAttribute* colors = mesh.attribute(vertex_color);
     add(positions, normals, uvs, colors ? colors->values : std::vector<glm::vec3>(), triangles);
     for (const auto& [name, values] : attributes)
@@ -158,7 +159,7 @@ void SceneDigest::take(const Texture& texture) {
 void SceneDigest::take(const Microfacets& facets) {
     const auto& [distribution, alpha, stretch] = facets;
     add(distribution, alpha);
-    add_if_there(stretch != 1, stretch);
+    add_if(stretch != 1, stretch);
 }
 
 void SceneDigest::take(const DiffuseMaterial& material) {
@@ -169,21 +170,21 @@ void SceneDigest::take(const DiffuseMaterial& material) {
 void SceneDigest::take(const ConductorMaterial& material) {
     const auto& [distribution, alpha, eta, k, specular_reflectance, alpha_v] = material;
     add(distribution, alpha, eta, k, specular_reflectance);
-    add_if_there(alpha_v.has_value(), alpha_v);
+    add_if(alpha_v.has_value(), alpha_v);
 }
 
 void SceneDigest::take(const DielectricMaterial& material) {
     const auto& [thin, eta, specular_reflectance, specular_transmittance, distribution, alpha, alpha_v] = material;
     add(thin, eta, specular_reflectance, specular_transmittance, distribution, alpha);
-    add_if_there(alpha_v.has_value(), alpha_v);
+    add_if(alpha_v.has_value(), alpha_v);
 }
 
 void SceneDigest::take(const PlasticMaterial& material) {
-    // The coating is a table of eta and facets.
+    // The coating is a table computed from eta and facets.
     const auto& [eta, nonlinear, facets, coating, diffuse_reflectance, specular_reflectance, scatters_once] =
         material;
     add(eta, nonlinear, facets, diffuse_reflectance, specular_reflectance);
-    add_if_there(scatters_once, scatters_once);
+    add_if(scatters_once, scatters_once);
 }
 
 void SceneDigest::take(const PhongMaterial& material) {
@@ -252,7 +253,7 @@ void SceneDigest::take(const Slide& slide) {
 void SceneDigest::take(const PointLight& light) {
     const auto& [position, intensity, axis, cutoff, full_within, slide] = light;
     add(position, intensity, axis, cutoff, full_within);
-    if (slide) // without one a light's checksum is as it was before there were such
+    if (slide) // as add_if()
         add(*slide);
 }
 
@@ -280,7 +281,7 @@ void SceneDigest::take(const Camera& camera) {
     const auto& [to_world, fov, fov_axis, is_orthographic, principal_offset, aperture_radius, focus_distance] =
         camera;
     add(to_world, fov, fov_axis);
-    // What a plain perspective does not have leaves its checksum as it was before there was such.
+    // Default values are left out, as in add_if().
     if (is_orthographic)
         add(is_orthographic);
     if (principal_offset != glm::vec2(0))
@@ -295,21 +296,21 @@ SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera)
     const auto& [shapes, groups, instances, materials, area_lights, point_lights, directional_lights, environment,
                  own_camera, size, max_depth] = scene;
     BitmapChecksums bitmaps;
-    std::vector<std::uint32_t> of_materials;
+    std::vector<std::uint32_t> material_checksums;
     for (const Material& material : materials)
-        of_materials.push_back(SceneDigest(bitmaps).add(material).checksum());
+        material_checksums.push_back(SceneDigest(bitmaps).add(material).checksum());
     SceneDigest geometry(bitmaps), surfaces(bitmaps), lights(bitmaps);
     for_each_shape(scene, [&](const Shape& shape) {
         const auto& [name, mesh, material, area_light] = shape;
         geometry.add(mesh);
-        surfaces.add(
-            of_materials.at(static_cast<std::size_t>(material))); // not its index: unused ones may come and go
+        // The index itself would depend on unused materials.
+        surfaces.add(material_checksums.at(static_cast<std::size_t>(material)));
         lights.add(area_light >= 0);
         if (area_light >= 0)
             lights.add(scene.area_lights.at(static_cast<std::size_t>(area_light)));
     });
-    for (const auto& [name, of_group] : groups) // what belongs together: without any, nothing is added
-        geometry.add(of_group.size());
+    for (const auto& [name, group_shapes] : groups)
+        geometry.add(group_shapes.size());
     for (const auto& [group, to_world] : instances)
         geometry.add(group, to_world);
     lights.add(point_lights, directional_lights, environment);

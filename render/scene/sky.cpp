@@ -18,7 +18,7 @@ namespace tessera {
 
 namespace {
 
-/// [Preetham 1999, A.2]
+/// Returns the coefficients of [Preetham 1999, A.2].
 Sky::Perez perez_coefficients(float turbidity) {
     const glm::vec3 t(turbidity);
     return {glm::vec3(0.1787f, -0.0193f, -0.0167f) * t + glm::vec3(-1.4630f, -0.2592f, -0.2608f),
@@ -28,7 +28,7 @@ Sky::Perez perez_coefficients(float turbidity) {
             glm::vec3(-0.0670f, -0.0033f, -0.0109f) * t + glm::vec3(0.3703f, 0.0452f, 0.0529f)};
 }
 
-/// [Preetham 1999, eq. 3] for Y, x and y. `gamma` is the angle to the sun.
+/// Evaluates [Preetham 1999, eq. 3] for Y, x and y; `gamma` is the angle to the sun.
 glm::vec3 distribution(const Sky::Perez& p, float cos_zenith_angle, float gamma) {
     const float cos_gamma = std::cos(gamma);
     const glm::vec3 by_height = 1.0f + p.a * glm::exp(p.b / std::max(cos_zenith_angle, 1e-3f));
@@ -36,7 +36,7 @@ glm::vec3 distribution(const Sky::Perez& p, float cos_zenith_angle, float gamma)
     return by_height * by_sun;
 }
 
-/// Y in kcd/m^2, x and y at the zenith [Preetham 1999, A.2].
+/// Returns Y (kcd/m^2), x and y at the zenith [Preetham 1999, A.2].
 glm::vec3 zenith_color(float turbidity, float sun_zenith_angle) {
     const float t = turbidity, s = sun_zenith_angle;
     const float chi = (4.0f / 9 - t / 120) * (pi - 2 * s);
@@ -51,18 +51,18 @@ glm::vec3 zenith_color(float turbidity, float sun_zenith_angle) {
     return {luminance, x, y};
 }
 
-/// From luminance and chromaticity to linear sRGB.
+/// Converts luminance and chromaticity to linear sRGB.
 Rgb rgb_of_Yxy(glm::vec3 Yxy) {
     const glm::vec3 xyz = Yxy.x / Yxy.z * glm::vec3(Yxy.y, Yxy.z, 1 - Yxy.y - Yxy.z);
     return rgb_of_xyz(xyz);
 }
 
-/// The angle between two unit vectors; exact for small ones too, where the sky changes most.
+/// Returns the angle between two unit vectors; accurate for small angles, where the sky changes most.
 float angle_between(glm::vec3 a, glm::vec3 b) {
     return 2 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-/// The direction of the same azimuth with another zenith angle.
+/// Returns the direction with the same azimuth and another zenith angle.
 glm::vec3 at_zenith_angle(glm::vec3 direction, float zenith_angle) {
     const float across = std::hypot(direction.x, direction.z);
     const float sine = std::sin(zenith_angle);
@@ -94,7 +94,7 @@ Rgb sky_radiance(const Sky& sky, glm::vec3 direction) {
             return Rgb(0);
         stretched = pi / 2; // the colour of the horizon
     }
-    if (sky.settings.extend) // as Mitsuba 0.6 does: smoothstep from the nadir up to the horizon
+    if (sky.settings.extend) // smoothstep from the nadir to the horizon, as in Mitsuba 0.6
         fade = glm::smoothstep(0.0f, 1.0f, 2 - 2 * zenith_angle * inv_pi);
     if (stretched != zenith_angle)
         direction = at_zenith_angle(direction, stretched);
@@ -120,12 +120,12 @@ Bitmap sky_bitmap(const Sky& sky, int width) {
 
 namespace {
 
-/// A table of values at wavelengths in nm.
+/// An entry of a table: a value at a wavelength in nm.
 struct Sample {
     float wavelength, value;
 };
 
-/// Linear between the samples, 0 outside.
+/// Interpolates a table linearly; 0 outside its range.
 float look_up(std::span<const Sample> table, float wavelength) {
     const auto above = std::upper_bound(table.begin(), table.end(), wavelength,
                                         [](float w, const Sample& s) { return w < s.wavelength; });
@@ -136,16 +136,16 @@ float look_up(std::span<const Sample> table, float wavelength) {
     return a.value + t * (above->value - a.value);
 }
 
-// The tables of [Preetham 1999, A.1], the absorption after [Iqbal 1983].
+// Tables of [Preetham 1999, A.1]; absorption after [Iqbal 1983].
 
-/// Radiance of the sun outside the air in W / (m^2 sr nm), from 380 nm in steps of 10.
+/// Radiance of the sun outside the atmosphere, W / (m^2 sr nm), from 380 nm in steps of 10 nm.
 constexpr std::array<float, 38> solar{
     16559.0f, 16233.7f, 21127.5f, 25888.2f, 25829.1f, 24232.3f, 26760.5f, 29658.3f, 30545.4f, 30057.5f,
     30663.7f, 28830.4f, 28712.1f, 27825.0f, 27100.6f, 27233.6f, 26361.3f, 25503.8f, 25060.2f, 25311.6f,
     25355.9f, 25134.2f, 24631.5f, 24173.2f, 23685.3f, 23212.1f, 22827.7f, 22339.8f, 21970.2f, 21526.7f,
     21097.9f, 20728.3f, 20240.4f, 19870.8f, 19427.2f, 19072.4f, 18628.9f, 18259.2f};
 
-/// Absorption by ozone, 1/cm.
+/// Absorption coefficient of ozone, 1/cm.
 constexpr std::array<Sample, 53> ozone{
     {{355, 0},      {445, 0.003f}, {450, 0.003f}, {455, 0.004f}, {460, 0.006f}, {465, 0.008f}, {470, 0.009f},
      {475, 0.012f}, {480, 0.014f}, {485, 0.017f}, {490, 0.021f}, {495, 0.025f}, {500, 0.03f},  {505, 0.035f},
@@ -156,7 +156,7 @@ constexpr std::array<Sample, 53> ozone{
      {690, 0.028f}, {700, 0.023f}, {710, 0.018f}, {720, 0.014f}, {730, 0.011f}, {740, 0.01f},  {750, 0.009f},
      {760, 0.007f}, {770, 0.004f}, {780, 0},      {790, 0}}};
 
-/// Absorption by water vapour, 1/cm; that by the mixed gases lies beyond 759 nm, where the sun's table has ended.
+/// Absorption coefficient of water vapour, 1/cm. Mixed gases absorb beyond 759 nm, outside the table `solar`.
 constexpr std::array<Sample, 8> water{{{689, 0},
                                        {690, 0.016f},
                                        {700, 0.024f},
@@ -166,15 +166,15 @@ constexpr std::array<Sample, 8> water{{{689, 0},
                                        {740, 0.061f},
                                        {750, 0.001f}}};
 
-/// What is left of the light after `mass` times the air that is overhead [Preetham 1999, A.1].
-float transmittance(float wavelength, float mass, float turbidity) {
+/// Returns the transmittance of the atmosphere for a relative air mass [Preetham 1999, A.1].
+float transmittance(float wavelength, float air_mass, float turbidity) {
     const float micrometre = wavelength / 1000;
     const float rayleigh = 0.008735f * std::pow(micrometre, -4.08f);
     const float beta = 0.04608365822050f * turbidity - 0.04586025928522f; // amount of aerosols
     const float aerosol = beta * std::pow(micrometre, -1.3f);
     const float ozone_layer = 0.35f * look_up(ozone, wavelength);
-    const float vapour = 2 * mass * look_up(water, wavelength); // 2 cm of water
-    return std::exp(-mass * (rayleigh + aerosol + ozone_layer) -
+    const float vapour = 2 * air_mass * look_up(water, wavelength); // 2 cm of water
+    return std::exp(-air_mass * (rayleigh + aerosol + ozone_layer) -
                     0.2385f * vapour / std::pow(1 + 20.07f * vapour, 0.45f));
 }
 
@@ -182,20 +182,20 @@ float transmittance(float wavelength, float mass, float turbidity) {
 
 Rgb sun_radiance(float turbidity, float elevation) {
     const float zenith_degrees = 90 - std::clamp(elevation, 0.0f, pi / 2) * 180 / pi;
-    const float mass = 1 / (std::sin(std::clamp(elevation, 0.0f, pi / 2)) +
-                            0.15f * std::pow(93.885f - zenith_degrees, -1.253f)); // [Preetham 1999, eq. 14]
+    const float air_mass = 1 / (std::sin(std::clamp(elevation, 0.0f, pi / 2)) +
+                                0.15f * std::pow(93.885f - zenith_degrees, -1.253f)); // [Preetham 1999, eq. 14]
     glm::vec3 xyz(0);
     for (std::size_t i = 0; i < solar.size(); ++i) {
         const float wavelength = 380 + 10 * static_cast<float>(i);
-        xyz += solar[i] * transmittance(wavelength, mass, turbidity) * color_matching(wavelength);
+        xyz += solar[i] * transmittance(wavelength, air_mass, turbidity) * color_matching(wavelength);
     }
-    xyz *= 10 / 106.856980f; // by the step in nm, over the integral of y
+    xyz *= 10 / 106.856980f; // step in nm over the integral of y
     return glm::max(rgb_of_xyz(xyz), 0.0f);
 }
 
 float disk_solid_angle(float angular_radius) {
     const float s = std::sin(0.5f * angular_radius);
-    return 4 * pi * s * s; // 2 pi (1 - cos), without the loss of digits
+    return 4 * pi * s * s; // equals 2 pi (1 - cos) without cancellation
 }
 
 Rgb resized_sun_radiance(Rgb radiance, float angular_radius) {
@@ -211,7 +211,7 @@ glm::vec3 sun_direction(const PlaceAndTime& when) {
     const double hours = when.hour - when.timezone + (when.minute + when.second / 60) / 60;
     const double n = static_cast<double>((day - start).count()) - 0.5 + hours / 24;
 
-    // The sun along the ecliptic [Blanco-Muriel 2001, eqs. 3 to 7].
+    // Ecliptic coordinates of the sun [Blanco-Muriel 2001, eqs. 3 to 7].
     const double omega = 2.1429 - 0.0010394594 * n;
     const double mean_longitude = 4.8950630 + 0.017202791698 * n;
     const double anomaly = 6.2400600 + 0.0172019699 * n;
@@ -219,7 +219,7 @@ glm::vec3 sun_direction(const PlaceAndTime& when) {
                              0.0001134 - 0.0000203 * std::sin(omega);
     const double obliquity = 0.4090928 - 6.2140e-9 * n + 0.0000396 * std::cos(omega);
 
-    // The way goes from there to the equator, and by the sidereal time to the place [eqs. 8 to 12].
+    // Equatorial coordinates, then by sidereal time to the local horizon [eqs. 8 to 12].
     const double right_ascension = std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
     const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
     const double sidereal_hours = 6.6974243242 + 0.0657098283 * n + hours;
@@ -231,13 +231,14 @@ glm::vec3 sun_direction(const PlaceAndTime& when) {
     const double east = -std::sin(hour_angle) * std::cos(declination);
     const double north = std::cos(latitude) * std::sin(declination) -
                          std::sin(latitude) * std::cos(hour_angle) * std::cos(declination);
-    // The place is on the earth's surface, not at its centre [eq. 15].
+    // Parallax: the observer is on the earth's surface, not at its centre [eq. 15].
     constexpr double parallax = 6371.01 / 149597890;
     const double zenith_angle = std::atan2(std::hypot(east, north), up);
-    const double seen = zenith_angle + parallax * std::sin(zenith_angle);
+    const double apparent_angle = zenith_angle + parallax * std::sin(zenith_angle);
     const double azimuth = std::atan2(east, north);
-    return {static_cast<float>(std::sin(azimuth) * std::sin(seen)), static_cast<float>(std::cos(seen)),
-            static_cast<float>(-std::cos(azimuth) * std::sin(seen))};
+    return {static_cast<float>(std::sin(azimuth) * std::sin(apparent_angle)),
+            static_cast<float>(std::cos(apparent_angle)),
+            static_cast<float>(-std::cos(azimuth) * std::sin(apparent_angle))};
 }
 
 } // namespace tessera

@@ -9,20 +9,19 @@
 
 namespace tessera {
 
-/// How wide a pixel is where something is seen, for textures to be filtered.
+/// Width of a pixel at a surface point, for texture filtering. See METHODS, "Filtered textures".
 ///
-/// The vertices of a base path beyond x_1 are shared, so what they reflect must not depend on which pixel looks,
-/// or the densities of a set would not be those of its samplers, and weights would not add up to one. So they have
-/// the width that a pixel would have if the camera saw them with nothing between: a function of the point alone
-/// [as pbrt-4 has it]. What a pixel sees itself has that of its own ray: x_1, and with TextureFilter::path what it
-/// sees in mirrors and through glass, as an edge that leaves a delta scatter is joined to by nobody.
+/// Other pixels reuse the vertices of a base path beyond x_1. Their reflectance must not depend on the path that
+/// reaches them, or the weights of a sampling set would not sum to one. They therefore have the width of a pixel
+/// whose camera sees the point unobstructed, a function of the point alone, as in pbrt-4. x_1 has the width of
+/// the pixel's own ray. With TextureFilter::path, so has what the pixel sees through delta scatters, whose edges
+/// are never reconnected.
 class TextureView {
 public:
-    /// Nothing is filtered.
+    /// Disables filtering.
     TextureView() = default;
-    /// @param spares_first  x_1 is not filtered, nor what it is a mirror of: light is divided by its albedo, and
-    ///                      the mean albedo of many points of each pixel knows more than any footprint
-    ///                      (PixelFeatures)
+    /// @param spares_first  leaves x_1, and what mirrors at x_1 show, unfiltered. Set with albedo demodulation:
+    ///                      the mean albedo of many points per pixel is better than a footprint (PixelFeatures).
     TextureView(TextureFilter filter, bool spares_first, const Camera& camera, glm::ivec2 size)
         : filter_(filter), is_parallel_(camera.is_orthographic), spares_first_(spares_first) {
         const Projection projection(camera, size);
@@ -32,26 +31,25 @@ public:
         width_ = projection.pixel_width();
     }
 
-    /// A parallelogram on the one surface that is looked at, whoever looks: a path's own (PathDifferentials).
-    /// World.
+    /// Sides of a parallelogram in world space, a given footprint that replaces the pixel's (path differentials).
     struct Sides {
         glm::vec3 a, b;
     };
     explicit TextureView(const Sides& sides) : filter_(TextureFilter::path), sides_(sides) {}
     const std::optional<Sides>& sides() const { return sides_; }
 
-    /// How wide a footprint is, of a pixel: the path's share if it is one of sixteen [Suykens 2001, 3.4]. A whole
-    /// pixel would be blurred once more by the pixel filter.
+    /// Width of a footprint in pixels: that of one of sixteen paths [Suykens 2001, 3.4]. A footprint of one pixel
+    /// would blur twice, because samples are distributed over the pixel, too.
     static constexpr float share_of_pixel = 0.25f;
 
     TextureFilter filter() const { return filter_; }
     bool spares_first() const { return spares_first_; }
-    /// What is between all that a pixel sees: radians (PixelWidth::angle).
+    /// Angle of a pixel, radians (PixelWidth::angle).
     float angle() const { return width_.angle; }
-    /// Width of a camera ray where it begins.
+    /// Width of a pixel where its camera ray begins, scene units.
     float first_width() const { return width_.least; }
 
-    /// What shines on a point: the direction in which it is seen, unit, and the width there, across that.
+    /// The unit direction in which a point is seen, and the width of a pixel there, perpendicular to it.
     struct Beam {
         glm::vec3 direction;
         float width;

@@ -9,7 +9,7 @@ namespace tessera {
 
 namespace {
 
-constexpr float glossy_alpha = 0.1f; // microfacet roughness below which a lobe is called glossy
+constexpr float glossy_alpha = 0.1f; // upper bound of a glossy lobe's alpha
 
 template <class... Ts>
 struct Overloaded : Ts... {
@@ -18,36 +18,36 @@ struct Overloaded : Ts... {
 template <class... Ts>
 Overloaded(Ts...) -> Overloaded<Ts...>;
 
-float least_red(const Bitmap& bitmap) {
-    float least = std::numeric_limits<float>::max();
+float min_red(const Bitmap& bitmap) {
+    float smallest = std::numeric_limits<float>::max();
     for (int y = 0; y < bitmap.height; ++y)
         for (int x = 0; x < bitmap.width; ++x)
-            least = std::min(least, bitmap.texel(x, y).r);
-    return least;
+            smallest = std::min(smallest, bitmap.texel(x, y).r);
+    return smallest;
 }
 
-/// The least value of the red channel anywhere on the texture.
-float least_red(const Texture& texture) {
-    const float least =
+/// Returns the smallest value of the red channel anywhere on a texture.
+float min_red(const Texture& texture) {
+    const float smallest =
         std::visit(Overloaded{[](const Rgb& constant) { return constant.r; },
-                              [](const BitmapTexture& b) { return b.bitmap ? least_red(*b.bitmap) : 0.0f; },
+                              [](const BitmapTexture& b) { return b.bitmap ? min_red(*b.bitmap) : 0.0f; },
                               [](const CheckerboardTexture& c) { return std::min(c.color0.r, c.color1.r); },
                               [](const AttributeTexture&) { return 0.0f; }},
                    texture.kind);
-    return texture.is_constant() ? least : least * texture.scale;
+    return texture.is_constant() ? smallest : smallest * texture.scale;
 }
 
-/// The lobes of one material.
+/// The kinds of lobes of a material.
 struct Lobes {
     bool delta = false;
     bool glossy = false;
     bool transmission = false;
 };
 
-/// Microfacets whose alpha is constant or reaches down to `least`.
-Lobes microfacet_lobes(float least, bool constant) {
-    const bool delta = least <= 0;
-    return {delta, least < glossy_alpha && !(delta && constant), false};
+/// Classifies microfacets whose smallest alpha is `min_alpha`.
+Lobes microfacet_lobes(float min_alpha, bool constant) {
+    const bool delta = min_alpha <= 0;
+    return {delta, min_alpha < glossy_alpha && !(delta && constant), false};
 }
 
 Lobes lobes_of(const Material& m);
@@ -55,14 +55,14 @@ Lobes lobes_of(const Material& m);
 Lobes lobes(const DiffuseMaterial&) {
     return {};
 }
-/// Of a ConductorMaterial or DielectricMaterial.
+/// Classifies the microfacets of a ConductorMaterial or DielectricMaterial.
 template <class M>
 Lobes facet_lobes(const M& m) {
     if (!m.alpha_v)
-        return microfacet_lobes(least_red(m.alpha), m.alpha.is_constant());
-    const float u = least_red(m.alpha), v = least_red(*m.alpha_v);
-    const float least = std::max(u, v) > 0 ? Microfacets::anisotropic(m.distribution, u, v).alpha : 0;
-    return microfacet_lobes(least, m.alpha.is_constant() && m.alpha_v->is_constant());
+        return microfacet_lobes(min_red(m.alpha), m.alpha.is_constant());
+    const float u = min_red(m.alpha), v = min_red(*m.alpha_v);
+    const float min_alpha = std::max(u, v) > 0 ? Microfacets::anisotropic(m.distribution, u, v).alpha : 0;
+    return microfacet_lobes(min_alpha, m.alpha.is_constant() && m.alpha_v->is_constant());
 }
 Lobes lobes(const ConductorMaterial& m) {
     return facet_lobes(m);
@@ -77,7 +77,7 @@ Lobes lobes(const PlasticMaterial& m) {
 }
 
 Lobes lobes(const PhongMaterial&) {
-    return {}; // its base is diffuse
+    return {}; // counts as diffuse, whatever its exponent
 }
 Lobes lobes(const MixtureMaterial& m) {
     Lobes all;
@@ -89,22 +89,22 @@ Lobes lobes(const MixtureMaterial& m) {
 }
 Lobes lobes(const CoatedMaterial& m) {
     Lobes all = lobes_of(*m.base);
-    all.delta = true; // the coating's own
+    all.delta = true; // of the coating
     return all;
 }
 
 Lobes lobes(const PrincipledMaterial& m) {
-    const float rough = least_red(m.roughness);
+    const float rough = min_red(m.roughness);
     return {false, rough * rough < glossy_alpha || !m.clearcoat.is_black(), !m.spec_trans.is_black()};
 }
 Lobes lobes(const ThinPrincipledMaterial& m) {
-    const float rough = least_red(m.roughness);
+    const float rough = min_red(m.roughness);
     return {false, !m.spec_trans.is_black() && rough * rough < glossy_alpha,
             !m.spec_trans.is_black() || !m.diff_trans.is_black()};
 }
 
 Lobes lobes(const WardMaterial&) {
-    return {}; // as Phong's
+    return {}; // counts as diffuse, whatever its alpha
 }
 Lobes lobes(const DiffuseTransmitterMaterial&) {
     return {false, false, true};

@@ -8,15 +8,16 @@
 namespace tessera {
 
 /// Chooses the resolution of the previews that a pane shows before its first pass. The first preview is coarse
-/// enough to follow a moving camera, on slow machines as well; finer ones follow while the camera rests. A preview
+/// enough to follow a moving camera, even on slow machines. Finer ones follow while the camera rests. A preview
 /// has one pixel for divisor x divisor pixels of the picture.
 class Previews {
 public:
     static constexpr int finest = 4, coarsest = 16;
-    static constexpr int most_pixels = 400'000; ///< of a first preview, as long as it can be coarser
-    static constexpr int least_edge = 40; ///< pixels that a preview coarser than the finest has along either edge
+    static constexpr int most_pixels = 400'000; ///< of a first preview, unless its divisor is `coarsest`
+    static constexpr int least_edge = 40; ///< least width and height in pixels, unless the divisor is `finest`
 
-    /// Returns the divisor of the next preview of a request for a picture of that size; 0: no preview is left.
+    /// Returns the divisor of a request's next preview; 0: no preview is left.
+    /// @param size  of the picture, pixels
     int divisor(std::uint64_t generation, glm::ivec2 size) const {
         if (!is_first(generation))
             return next_;
@@ -27,11 +28,12 @@ public:
             divisor /= 2;
         return divisor;
     }
-    /// Whether the request has had no preview yet.
+    /// Returns whether the request has had no preview yet.
     bool is_first(std::uint64_t generation) const { return generation != generation_; }
 
-    /// Records the seconds that a preview with this divisor has taken.
-    /// @param budget  seconds that the first preview of a request may take
+    /// Records a finished preview.
+    /// @param seconds  wall time that it took
+    /// @param budget   seconds that the first preview of a request may take
     void count(std::uint64_t generation, int divisor, double seconds, double budget) {
         adapt(divisor, seconds, budget);
         generation_ = generation;
@@ -39,7 +41,7 @@ public:
     }
 
 private:
-    /// Sets the divisor of the next request's first preview. Half the divisor takes at most four times as long.
+    /// Updates the divisor of the next request's first preview. Half the divisor takes at most four times as long.
     /// The margin prevents oscillation.
     void adapt(int divisor, double seconds, double budget) {
         constexpr double margin = 1.5;
@@ -53,7 +55,7 @@ private:
 
     int first_ = finest;           // divisor of a request's first preview
     int next_ = 0;                 // divisor of the next preview of generation_
-    std::uint64_t generation_ = 0; // the last that had a preview
+    std::uint64_t generation_ = 0; // of the last preview
 };
 
 } // namespace tessera

@@ -13,8 +13,7 @@
 
 namespace tessera {
 
-/// Returns the next pane in turn that needs a reconstruction, so that none starves; null: none does. Needs the
-/// lock.
+/// Returns the next pane in turn that needs a reconstruction, or null. Needs the lock.
 SessionPane* ReconstructionWorker::next_pane() {
     const std::size_t count = shared_.panes.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -41,7 +40,7 @@ void ReconstructionWorker::loop(std::stop_token stop) {
     }
 }
 
-/// Marks the pane's newest snapshot as under reconstruction, unless the pane has changed in between.
+/// Begins a task for the pane's newest snapshot. Returns an empty task if the pane has changed in between.
 ReconstructionWorker::Task ReconstructionWorker::begin(SessionPane& pane) {
     const ReconstructionSettings settings = shared_.possible_reconstruction(pane);
     const std::lock_guard lock(shared_.mutex);
@@ -60,7 +59,7 @@ ReconstructionWorker::Task ReconstructionWorker::begin(SessionPane& pane) {
 void ReconstructionWorker::reconstruct(SessionPane& pane, const Task& task) {
     PaneReconstruction& own = pane.reconstruction;
     auto result = std::make_shared<Reconstruction>();
-    // These two become the ones before, which are freed without the lock.
+    // These two become the previous ones, which are freed without the lock.
     std::shared_ptr<const GradientImages> made_from = task.snapshot->images;
     std::shared_ptr<const Snapshot> latest;
     std::string failure;
@@ -69,12 +68,12 @@ void ReconstructionWorker::reconstruct(SessionPane& pane, const Task& task) {
             reconstruct_if_it_fits(pane.solver.solver_for(*task.snapshot, task.settings, task.cold),
                                    *task.snapshot->images, task.settings, serial_for, 1, {task.stop, &own.share});
     } catch (const std::exception& error) {
-        failure = fmt::format("reconstruction of pass {}: {}", task.snapshot->spp, message_of(error));
+        failure = fmt::format("pass {} cannot be reconstructed: {}", task.snapshot->spp, message_of(error));
     }
     {
         const std::lock_guard lock(shared_.mutex);
         own.spp = 0;
-        // A newer picture of another size or request has no use for this one.
+        // A newer snapshot of another size or request cannot use this result.
         if (task.stop.stop_requested() || pane.latest->generation != task.snapshot->generation ||
             pane.latest->divisor != task.snapshot->divisor)
             return;
@@ -83,7 +82,7 @@ void ReconstructionWorker::reconstruct(SessionPane& pane, const Task& task) {
         if (!failure.empty()) {
             shared_.messages.push_back(std::move(failure));
         } else {
-            // If the render has gone on, its newest snapshot gets this picture, labelled with the picture's pass.
+            // The render may have continued. Its newest snapshot gets this picture and the number of its pass.
             auto updated = std::make_shared<Snapshot>(*pane.latest);
             updated->reconstruction = std::move(result);
             updated->reconstructed_with = task.settings;

@@ -9,13 +9,13 @@
 
 namespace tessera {
 
-/// Reconstructs the newest snapshots of a session's panes in turn, on a thread of its own.
+/// Reconstructs the newest snapshots of a session's panes in turn, on its own thread.
 class ReconstructionWorker {
 public:
     explicit ReconstructionWorker(SessionState& shared)
         : shared_(shared), thread_([this](std::stop_token stop) { loop(stop); }) {}
 
-    /// Ends the loop after the work under way. The destructor waits for it.
+    /// Ends the loop after the current work. The destructor waits for it.
     void request_stop() { thread_.request_stop(); }
 
 private:
@@ -23,7 +23,7 @@ private:
     struct Task {
         std::shared_ptr<const Snapshot> snapshot; // null: none
         ReconstructionSettings settings;
-        bool cold = false; // start from nothing
+        bool cold = false; // no warm start
         std::stop_token stop;
     };
     SessionPane* next_pane();
@@ -32,8 +32,8 @@ private:
     void loop(std::stop_token stop);
 
     SessionState& shared_;
-    std::size_t turn_ = 0; // index of the pane that is asked first
-    std::jthread thread_;  // last: ends first
+    std::size_t turn_ = 0; // index of the first pane that next_pane() considers
+    std::jthread thread_;  // last member: ends first
 };
 
 } // namespace tessera

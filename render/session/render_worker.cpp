@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto publish_interval = std::chrono::milliseconds(200);
-constexpr double preview_period = 1 / 15.0; // seconds for a first preview of each pane, while a camera moves
+constexpr double preview_period = 1 / 15.0; // seconds for the first previews of all panes; not tuned
 
 std::shared_ptr<Snapshot> snapshot_of(const Render& render, std::uint64_t generation, int divisor) {
     auto snapshot = std::make_shared<Snapshot>();
@@ -47,16 +47,16 @@ RenderWorker::RenderWorker(SessionState& shared, int threads)
 
 // --- the turns ---
 
-/// Returns the pane whose turn it is, of those with work to do; null: none has. Panes that show nothing of their
-/// request come first, then panes with previews only, those served longest ago first. The others follow by what
-/// they have had of the pace's measure, so that a pane that began later catches up. Needs the lock.
+/// Returns the pane whose turn it is, or null if no pane has work. Panes without a preview of their request come
+/// first, then panes with previews only, and in both groups those with the oldest turn. The others follow by the
+/// time or samples that they have had, so that a pane that began later catches up. Needs the lock.
 SessionPane* RenderWorker::next_pane() {
     SessionPane* next = nullptr;
     const auto order = [&](const SessionPane& p) {
-        const double had = p.is_fresh()                             ? 0
-                           : shared_.pace.equal == Pace::Equal::spp ? p.own.render->spp()
-                                                                    : p.own.render->seconds();
-        return std::tuple(!p.lacks_preview(), !p.is_fresh(), had, p.own.served);
+        const double amount = p.is_fresh()                             ? 0
+                              : shared_.pace.equal == Pace::Equal::spp ? p.own.render->spp()
+                                                                       : p.own.render->seconds();
+        return std::tuple(!p.lacks_preview(), !p.is_fresh(), amount, p.own.served);
     };
     for (const auto& pane : shared_.panes) {
         if (pane->wants_pass(shared_.pace, shared_.paused) && (!next || order(*pane) < order(*next)))
@@ -67,7 +67,7 @@ SessionPane* RenderWorker::next_pane() {
     return next;
 }
 
-/// Returns the film of a pane that is withdrawn; null: none. Needs the lock.
+/// Takes the render of a withdrawn pane, or returns null. Needs the lock.
 std::unique_ptr<Render> RenderWorker::withdrawn_render() {
     for (const auto& pane : shared_.panes)
         if (pane->own.render && !pane->request.scene)
@@ -75,7 +75,7 @@ std::unique_ptr<Render> RenderWorker::withdrawn_render() {
     return nullptr;
 }
 
-/// Returns a pane that rests with passes that are not published; null: none. Needs the lock.
+/// Returns a resting pane with unpublished passes, or null. Needs the lock.
 SessionPane* RenderWorker::unpublished_pane() {
     for (const auto& pane : shared_.panes)
         if (!pane->wants_pass(shared_.pace, shared_.paused) && !pane->is_fresh() &&
@@ -86,7 +86,7 @@ SessionPane* RenderWorker::unpublished_pane() {
 
 void RenderWorker::loop(std::stop_token stop) {
     work_in_background();
-    while (!stop.stop_requested()) { // wait() returns true while there is work, even if it is stopped
+    while (!stop.stop_requested()) { // wait() returns true while there is work, even after a stop request
         SessionPane* to_render = nullptr;
         SessionPane* to_publish = nullptr;
         std::unique_ptr<Render> to_free;
@@ -107,7 +107,7 @@ void RenderWorker::loop(std::stop_token stop) {
 }
 
 /// Renders one pass of a pane, or one preview before the first.
-/// @param worker_stop  ends a first preview, which no newer request ends
+/// @param worker_stop  stops a first preview, which newer requests do not stop
 void RenderWorker::step(SessionPane& pane, std::stop_token worker_stop) {
     RenderRequest request;
     std::uint64_t generation;
@@ -134,17 +134,17 @@ void RenderWorker::render_step(SessionPane& pane, const RenderRequest& request, 
                                std::stop_token stop, std::stop_token worker_stop) {
     PaneRender& own = pane.own;
     if (own.generation != generation) {
-        own.render.reset(); // there are never two films
+        own.render.reset(); // before the next one takes memory
         if (own.previews.divisor(generation, request.size) > 0) {
-            // A newer request does not stop a first preview: while a camera is dragged, each frame makes a
+            // A newer request does not stop a first preview. While a camera is dragged, each frame makes a
             // request, and a late picture is better than none.
             preview(pane, request, generation, own.previews.is_first(generation) ? worker_stop : stop);
-            return; // the other panes are next
+            return; // other panes are next
         }
         own.render = std::make_unique<Render>(request.scene, request.camera, request.size, request.settings);
         own.generation = generation;
         own.published_spp = 0;
-        return; // the other panes' previews come first, and there may be a pause
+        return; // previews of other panes come first, and the session may be paused
     }
     if (!own.render->pass(pool_, stop, &pane.pass_share))
         return;
@@ -162,7 +162,7 @@ void RenderWorker::give_up(SessionPane& pane, std::uint64_t generation, const st
     pane.failure = why;
 }
 
-/// Counts down the steps that are asked for.
+/// Counts down the requested steps.
 void RenderWorker::count_step(SessionPane& pane, std::uint64_t generation) {
     const std::lock_guard lock(shared_.mutex);
     if (pane.generation == generation && pane.steps > 0)
@@ -171,15 +171,15 @@ void RenderWorker::count_step(SessionPane& pane, std::uint64_t generation) {
 
 // --- previews and snapshots ---
 
-/// Renders a preview: one sample per pixel of a small image. Reconstructs it on this thread, because the next
-/// preview may be complete before the reconstruction thread has done so.
+/// Renders a preview: one sample per pixel of a small image. Reconstructs it on this thread, because the
+/// reconstruction thread could be slower than the next preview.
 void RenderWorker::preview(SessionPane& pane, const RenderRequest& request, std::uint64_t generation,
                            std::stop_token stop) {
     const Clock::time_point start = Clock::now();
     const int divisor = pane.own.previews.divisor(generation, request.size);
     const glm::ivec2 size = (request.size + divisor - 1) / divisor;
     RenderSettings settings = request.settings;
-    settings.path_guiding = Guiding::off; // guiding learns in the first pass, and there is no second
+    settings.path_guiding = Guiding::off; // a single pass does not benefit
     Render coarse(request.scene, request.camera, size, settings);
     if (!coarse.pass(pool_, stop, &pane.pass_share))
         return;
@@ -199,7 +199,8 @@ void RenderWorker::preview(SessionPane& pane, const RenderRequest& request, std:
                             preview_budget());
 }
 
-/// Returns the seconds that a pane's first preview may take, so that all panes have one in time. Takes the lock.
+/// Returns the seconds that a pane's first preview may take if all panes need one within preview_period. Takes the
+/// lock.
 double RenderWorker::preview_budget() const {
     const std::lock_guard lock(shared_.mutex);
     const auto in_use = std::count_if(shared_.panes.begin(), shared_.panes.end(),
@@ -207,9 +208,8 @@ double RenderWorker::preview_budget() const {
     return preview_period / static_cast<double>(std::max(in_use, std::ptrdiff_t{1}));
 }
 
-/// Gives the pane's latest snapshot to the panes that follow it, each of which reconstructs it itself. Needs the
-/// lock.
-void RenderWorker::hand_on(const SessionPane& pane) {
+/// Gives the pane's latest snapshot to its followers, without its reconstruction. Needs the lock.
+void RenderWorker::publish_to_followers(const SessionPane& pane) {
     for (const auto& other : shared_.panes) {
         if (other->followed < 0 || shared_.panes[other->followed].get() != &pane ||
             (other->generation != pane.latest->generation && !pane.latest->coarse()))
@@ -222,7 +222,7 @@ void RenderWorker::hand_on(const SessionPane& pane) {
 
 /// Makes the snapshot the pane's latest.
 void RenderWorker::publish(SessionPane& pane, const std::shared_ptr<Snapshot>& snapshot) {
-    std::shared_ptr<const Snapshot> latest = snapshot; // becomes the one before, which is freed without the lock
+    std::shared_ptr<const Snapshot> latest = snapshot; // becomes the previous one, which is freed without the lock
     std::shared_ptr<const GradientImages> reconstructed;
     {
         const std::lock_guard lock(shared_.mutex);
@@ -233,14 +233,14 @@ void RenderWorker::publish(SessionPane& pane, const std::shared_ptr<Snapshot>& s
             pane.reconstruction.made_with = snapshot->reconstructed_with;
         }
         latest = pane.take(snapshot);
-        hand_on(pane);
+        publish_to_followers(pane);
     }
-    shared_.tell(); // first, because the reconstruction thread may take this core
+    shared_.tell(); // first, because the reconstruction thread can take this core
     shared_.reconstruct_wake.notify_one();
 }
 
-/// Publishes the pane's passes. If that fails, for example without memory for a copy, reports it; a later pass
-/// tries again, and the render loses nothing.
+/// Publishes the pane's passes. Reports a failure, such as missing memory for a copy. A later pass tries again,
+/// and the render continues.
 void RenderWorker::publish_passes(SessionPane& pane) {
     try {
         publish(pane, snapshot_of(*pane.own.render, pane.own.generation, 1));

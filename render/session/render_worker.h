@@ -10,14 +10,13 @@
 
 namespace tessera {
 
-/// Renders passes and previews of a session's panes in turn, on a thread and a pool of its own, and publishes
-/// snapshots of them.
+/// Renders passes and previews of a session's panes in turn, on its own thread and pool, and publishes snapshots.
 class RenderWorker {
 public:
     /// @param threads  as in ThreadPool
     RenderWorker(SessionState& shared, int threads);
 
-    /// Ends the loop after the work under way. The destructor waits for it.
+    /// Ends the loop after the current work. The destructor waits for it.
     void request_stop() { thread_.request_stop(); }
 
 private:
@@ -34,12 +33,12 @@ private:
     void count_step(SessionPane& pane, std::uint64_t generation);
     void publish(SessionPane& pane, const std::shared_ptr<Snapshot>& snapshot);
     void publish_passes(SessionPane& pane);
-    void hand_on(const SessionPane& pane);
+    void publish_to_followers(const SessionPane& pane);
 
     SessionState& shared_;
     std::uint64_t turn_ = 0;
     ThreadPool pool_;
-    std::jthread thread_; // last: ends before the pool
+    std::jthread thread_; // last member: ends before the pool
 };
 
 } // namespace tessera

@@ -22,14 +22,13 @@ Session::Session(int panes, int threads, std::function<void()> on_publish)
 Session::~Session() {
     {
         const std::lock_guard lock(shared_->mutex);
-        // No new stop sources replace these, as at a request: a worker that takes its token later finds it
-        // stopped.
+        // Unlike end_work(), this keeps the stop sources, so a worker that takes a token later finds it stopped.
         for (const auto& pane : shared_->panes) {
             pane->stop.request_stop();
             pane->reconstruction.stop.request_stop();
         }
     }
-    render_->request_stop(); // both, before the first is waited for
+    render_->request_stop(); // both stop in parallel; the destructors wait
     reconstruct_->request_stop();
 }
 

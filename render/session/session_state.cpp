@@ -44,9 +44,9 @@ ReconstructionSettings SessionState::possible_reconstruction(SessionPane& pane) 
         return settings;
     {
         const std::lock_guard lock(mutex);
-        if (pane.reconstruction.settings == settings) { // no other choice in between
+        if (pane.reconstruction.settings == settings) { // not changed in between
             pane.reconstruction.settings.norm = norm;
-            messages.push_back(oidn_problem() + "; the picture is that of guided");
+            messages.push_back(oidn_problem() + "; guided is used instead");
         }
     }
     settings.norm = norm;

@@ -13,7 +13,7 @@
 
 namespace tessera {
 
-/// What the threads of a session share. Guarded by `mutex`, except the condition variables and `on_publish`.
+/// State that the threads of a session share. Guarded by `mutex`, except the condition variables and `on_publish`.
 struct SessionState {
     mutable std::mutex mutex;
     std::condition_variable_any render_wake;
@@ -25,17 +25,17 @@ struct SessionState {
     Pace pace;
     std::uint64_t generation = 0; // of the newest request
 
-    /// Returns the pane that renders what a pane shows: itself, or the one that it follows. Needs the lock.
+    /// Returns the pane that renders a pane's picture: itself, or the one that it follows. Needs the lock.
     const SessionPane& rendering(int pane) const;
 
     // These take the lock.
 
-    /// Calls on_publish. An exception of it becomes a message, so that no worker ends by it.
+    /// Calls on_publish. An exception becomes a message, so that it ends no worker.
     void tell();
-    /// Adds a message, and tells.
+    /// Adds a message, and calls tell().
     void report(std::string message);
-    /// Returns the pane's reconstruction settings. If its norm is not available here, replaces it, with a message.
-    /// Slow at first, when it searches for a library: to be called by workers.
+    /// Returns the pane's reconstruction settings. Replaces an unavailable norm, with a message. The first call
+    /// can be slow, because it searches for a library, so only workers may call it.
     ReconstructionSettings possible_reconstruction(SessionPane& pane);
 };
 

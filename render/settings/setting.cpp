@@ -18,7 +18,7 @@ struct Cases : Functions... {
     using Functions::operator()...;
 };
 
-/// The number that all of the text is. Empty: it is none, or lies outside the limits.
+/// Parses the whole text as a number. Empty: it is none, or it is outside the limits.
 template <class Number>
 std::optional<Number> parsed(std::string_view text, Number least, Number most) {
     Number value{};
@@ -31,13 +31,13 @@ std::optional<Number> parsed(std::string_view text, Number least, Number most) {
 
 /// Sets `value` if the text is a number within the limits, and returns whether it is.
 template <class Number>
-bool take(std::string_view text, Number least, Number most, Number& value) {
+bool parse_into(std::string_view text, Number least, Number most, Number& value) {
     const std::optional<Number> number = parsed(text, least, most);
     value = number.value_or(value);
     return number.has_value();
 }
 
-bool take_size(std::string_view text, const Setting::Size& size) {
+bool parse_size_into(std::string_view text, const Setting::Size& size) {
     const std::size_t x = text.find('x');
     if (x == text.npos)
         return false;
@@ -48,14 +48,14 @@ bool take_size(std::string_view text, const Setting::Size& size) {
     return width && height;
 }
 
-bool take_switch(std::string_view text, bool& value) {
+bool parse_switch_into(std::string_view text, bool& value) {
     if (text != "on" && text != "off")
         return false;
     value = text == "on";
     return true;
 }
 
-bool take_choice(std::string_view text, const Setting::OneOf& one) {
+bool parse_choice_into(std::string_view text, const Setting::OneOf& one) {
     const auto found = std::ranges::find(one.choices, text, &SettingChoice::id);
     if (found == one.choices.end())
         return false;
@@ -92,14 +92,14 @@ std::string Setting::text() const {
 }
 
 void Setting::set_text(std::string_view text) const {
-    const bool is_taken = std::visit(
-        Cases{[&](const Natural& n) { return take(text, std::uint64_t{0}, ~std::uint64_t{0}, *n.value); },
-              [&](const Switch& on) { return take_switch(text, *on.value); },
-              [&](const OneOf& one) { return take_choice(text, one); },
-              [&](const Size& size) { return take_size(text, size); },
-              [&](const auto& n) { return take(text, n.least, n.most, *n.value); }},
+    const bool is_valid = std::visit(
+        Cases{[&](const Natural& n) { return parse_into(text, std::uint64_t{0}, ~std::uint64_t{0}, *n.value); },
+              [&](const Switch& on) { return parse_switch_into(text, *on.value); },
+              [&](const OneOf& one) { return parse_choice_into(text, one); },
+              [&](const Size& size) { return parse_size_into(text, size); },
+              [&](const auto& n) { return parse_into(text, n.least, n.most, *n.value); }},
         kind);
-    if (!is_taken)
+    if (!is_valid)
         throw std::invalid_argument(fmt::format("{} is \"{}\": must be {}", id, text, allowed()));
 }
 

@@ -8,54 +8,54 @@
 
 namespace tessera {
 
-inline constexpr int most_edges = 64; ///< of a light path
-inline constexpr int most_tile = 16;  ///< pixels along a tile's edge
+inline constexpr int most_edges = 64; ///< limit of max_depth
+inline constexpr int most_tile = 16;  ///< limit of tile
 
-/// Camera positions from which a pass sees a pixel with several surfaces, if it reuses paths. In equal time, three
-/// and four positions do not lower the error further (TRIALS.md, "Several positions").
+/// Camera positions from which a pass sees a pixel with several surfaces, if it reuses paths; n of METHODS (20).
+/// Three and four positions do not lower the error at equal time (TRIALS.md, "Several positions").
 inline constexpr int edge_positions = 2;
-/// Camera rays of a sample in a pixel with the edge of a directly visible emitter. In the Bathroom at 16 samples a
-/// pixel, one ray has 1.1 (PT) and 1.8 (G-PR) times the relMSE of a grid of sixteen (RESULTS.md,
-/// very_direct_rays=1,16).
+/// Camera rays of a sample in a pixel with the edge of a directly visible emitter. With one ray, relMSE is larger
+/// (RESULTS.md, very_direct_rays=1,16).
 inline constexpr int edge_emitter_rays = 16;
 
-/// Over what textures of reflectances, and lamps that the camera sees, are filtered.
+/// Footprint over which textures of reflectance and of directly visible emitters are averaged.
 enum class TextureFilter : std::uint8_t {
-    off,    ///< points, as Mitsuba has it
-    camera, ///< what a pixel covers if the camera sees it
-    path    ///< the same, but in mirrors and through glass what it covers there
+    off,    ///< none: textures are looked up at points, as in Mitsuba
+    camera, ///< that of a pixel which sees the point directly
+    path    ///< the same, but in mirrors and through glass that of the pixel's own path
 };
 
-/// Whether directions are also drawn from where earlier passes found light.
+/// Whether guides, learned from earlier passes, draw some of the directions.
 enum class Guiding : std::uint8_t {
     off,
-    where_it_pays, ///< in scenes where samples tell that it brings more than it costs
-    on             ///< in every scene, where a place's own samples do not tell otherwise
+    where_it_pays, ///< in scenes where samples show that the gain exceeds the cost
+    on             ///< in every scene, except in cells where samples show no gain
 };
 
-/// What decides how far base paths go and what they look for.
+/// Settings of base paths.
 struct PathSettings {
-    int max_depth = 8;      ///< edges of a light path; 1: emission only
-    int roulette_depth = 3; ///< edges beyond which a path goes on by Russian roulette; 0: never by it
+    int max_depth = 8;      ///< limit on the edges of a light path; 1: directly visible emission only
+    int roulette_depth = 3; ///< edges after which Russian roulette on path length begins; 0: no roulette
     TextureFilter filter_textures = TextureFilter::off;
     Guiding path_guiding = Guiding::where_it_pays;
 
     bool operator==(const PathSettings&) const = default;
 };
 
-/// How a base path is taken to another pixel.
+/// The shift of a base path to another pixel.
 enum class ShiftKind : std::uint8_t {
     half_vector,        ///< half vectors are copied until two vertices can be connected [Kettunen 2015]
-    reconnection,       ///< x_1 to x_2 alone; direct light stays where it is [Bekaert 2002]
-    replay,             ///< the offset takes the same random numbers, all the way [Hua 2019, 3.1]
+    reconnection,       ///< x_1 is connected to x_2; direct light is not shifted [Bekaert 2002]
+    replay,             ///< the whole offset path uses the base path's random numbers [Hua 2019, 3.1]
     replay_reconnection ///< random numbers are replayed until two vertices can be connected [Hua 2019, 3.1]
 };
 
 struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
-    float shift_threshold =
-        0.001f; ///< roughness above which a vertex is connectable [Kettunen 2015]; no option changes it
-    float shift_distance = 6; ///< least length of an edge that is joined, in pixels' widths at its beginning
+    /// Roughness above which a vertex is connectable [Kettunen 2015]. No option changes it.
+    float shift_threshold = 0.001f;
+    /// Assumed distance of the pixels of a sampling set, in pixel widths: the 6 of METHODS (16).
+    float shift_distance = 6;
 
     bool operator==(const ShiftSettings&) const = default;
 };
@@ -64,67 +64,67 @@ enum class Method : std::uint8_t { pt, pr, gpt, gpr };
 inline constexpr Method all_methods[] = {Method::pt, Method::pr, Method::gpt, Method::gpr};
 static_assert(std::size(all_methods) == enumerator_count<Method>);
 
-/// The method's name on the command line: "pt", "pr", "gpt" or "gpr".
+/// Returns the method's name on the command line: "pt", "pr", "gpt" or "gpr".
 std::string_view short_name(Method method);
-/// The method's name in the panel, such as "Path tracing".
+/// Returns the method's name in the panel, such as "Path tracing".
 std::string_view long_name(Method method);
 
-/// Which pixels share their paths in PR. (G-PR needs neighbours, and so the tile.)
+/// Pixels that reuse each other's paths in PR. G-PR needs neighbours for its gradients, so it always has tiles.
 enum class Pattern : std::uint8_t {
     tile, ///< a square of `tile` x `tile` pixels
-    rooks ///< `tile` pixels on a square of that edge, one in each row and column [Bekaert 2002]
+    rooks ///< `tile` pixels of such a square, one in each row and column [Bekaert 2002]
 };
 
-/// What decides on the probability with which a base path is reused.
+/// Russian roulette on reuse: the threshold for the probability that a base path is reused.
 enum class RouletteKind : std::uint8_t {
-    relative, ///< its luminance relative to the noise of its sampling set (reuse_roulette.h)
-    absolute, ///< its luminance against rr_delta [Bauszat 2017, 3.3]
-    none      ///< every path is reused
+    relative, ///< the noise of the path's sampling set (reuse_roulette.h)
+    absolute, ///< rr_delta [Bauszat 2017, 3.3]
+    none      ///< none: every path is reused
 };
 
-/// What of a pixel's radiance primal and gradients are made of [Fang 2024].
+/// Basis expansion: the quantity of which primal and gradients are measured [Fang 2024].
 enum class Basis : std::uint8_t {
     none,   ///< the radiance itself
-    albedo, ///< the radiance over the albedo of what the pixel sees
-    sh1,    ///< that in parts, by what arrives in spherical harmonics of degree 0 and 1
+    albedo, ///< radiance divided by the albedo that the pixel sees, METHODS (27)
+    sh1,    ///< components of that by incident direction, METHODS (31): spherical harmonics up to degree 1
     sh2,    ///< up to degree 2
     sh3,    ///< up to degree 3
-    box     ///< in nine parts of the sphere
+    box     ///< nine boxes of equal solid angle
 };
 
-/// Everything beside the scene, the camera and the size that decides the picture's bits. What each setting is
-/// called, and its limits: settings_table.h.
+/// All settings that determine a picture's bits, besides scene, camera and size. Names and limits are in
+/// settings_table.h.
 struct RenderSettings : PathSettings, ShiftSettings {
     Method method = Method::gpr;
     int tile = 6;           ///< pixels along a tile's edge [1, most_tile]
     bool adapt_tile = true; ///< adaptive tile splitting (learned_reuse.h)
     Pattern pattern = Pattern::tile;
     RouletteKind roulette = RouletteKind::relative;
-    float rr_delta = 0.1f; ///< absolute roulette's delta, a radiance
-    bool edge_rays =
-        true; ///< several camera rays per sample at edges: edge_positions and edge_emitter_rays, or one
+    float rr_delta = 0.1f; ///< threshold of the absolute roulette, a radiance
+    bool edge_rays = true; ///< several camera rays per sample at edges (edge_positions, edge_emitter_rays)
     Basis basis = Basis::albedo;
     std::uint64_t seed = 0;
 
     bool operator==(const RenderSettings&) const = default;
 };
 
-/// Whether the method measures gradients.
+/// Returns whether the method measures gradients.
 inline bool has_gradients(Method method) {
     return method == Method::gpt || method == Method::gpr;
 }
 
-/// Whether its pixels share the light of base paths by tiles or patterns.
+/// Returns whether base paths are reused within tiles or N-rooks patterns.
 inline bool reuses_paths(Method method) {
     return method == Method::pr || method == Method::gpr;
 }
 
-/// Whether what it measures is divided by albedos. (PT has nothing that could gain by it.)
+/// Returns whether radiance is divided by albedos. PT neither reuses paths nor measures gradients, so it gains
+/// nothing.
 inline bool is_demodulated(const RenderSettings& s) {
     return s.method != Method::pt && s.basis != Basis::none;
 }
 
-/// Whether it is measured in parts. (PR's picture needs no gradients, and so no parts.)
+/// Returns whether the basis has several components. PR has no gradients, and so no use for them.
 inline bool is_expanded(const RenderSettings& s) {
     return has_gradients(s.method) && s.basis > Basis::albedo;
 }
@@ -140,7 +140,7 @@ inline bool has_positions(const RenderSettings& s) {
     return reuses_paths(s.method) && camera_positions(s) > 1 && !is_expanded(s);
 }
 
-/// Whether its tiles can be cut into smaller ones: N-rooks patterns cannot.
+/// Returns whether tiles can be split. N-rooks patterns cannot.
 inline bool has_tiles_to_cut(const RenderSettings& s) {
     return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
 }

@@ -15,67 +15,68 @@ namespace {
 
 constexpr SettingChoice methods[] = {
     {"pt", "Path tracing",
-     "Every pixel for itself: light and BSDF sampling, combined by multiple importance sampling [Veach 1997]."},
+     "Each pixel uses its own paths only. Emitter and BSDF sampling are combined by multiple importance sampling "
+     "[Veach 1997]."},
     {"pr", "Path reusing",
-     "Each base path brings light to all pixels of its tile: less noise, alike within a tile [Bekaert 2002, "
-     "Bauszat 2017]."},
+     "Each base path contributes to all pixels of its tile. There is less noise, which is correlated within a "
+     "tile [Bekaert 2002, Bauszat 2017]."},
     {"gpt", "Gradient-domain path tracing",
-     "Each path is shifted to its pixel's neighbours, which measures gradients with little noise; the picture is "
-     "reconstructed from these and the primal [Kettunen 2015]."},
+     "Each path is shifted to the neighbours of its pixel, which measures gradients with little noise. The "
+     "picture is reconstructed from gradients and primal [Kettunen 2015]."},
     {"gpr", "Gradient-domain path reusing",
-     "Gradients as G-PT has, from the paths that a tile shares as PR does [Bauszat 2017]."},
+     "Gradients as in G-PT, from paths that are reused within a tile as in PR [Bauszat 2017]."},
 };
 static_assert(std::size(methods) == std::size(all_methods));
 
 constexpr SettingChoice patterns[] = {
-    {"tile", "square tile", "All pixels of a square share their paths."},
+    {"tile", "square tile", "All pixels of a square reuse each other's paths."},
     {"rooks", "N-rooks",
-     "N pixels on an N x N square share their paths, one in each row and column, so that nothing repeats from a "
-     "pixel to its neighbour [Bekaert 2002]. PR only."},
+     "N pixels of an N x N square, one in each row and column, reuse each other's paths. Pixels side by side are "
+     "in different sets and share no base path [Bekaert 2002]. PR only."},
 };
 constexpr SettingChoice shift_kinds[] = {
     {"half-vector", "half vectors, reconnection",
-     "Half vectors are copied until two rough vertices can be connected; mirrors and glass are reused, too "
-     "[Kettunen 2015, Bauszat 2017]."},
+     "Copies half vectors until two rough vertices can be connected. Paths are reused in mirrors and through "
+     "glass, too [Kettunen 2015, Bauszat 2017]."},
     {"reconnection", "reconnection of x1 and x2",
-     "The first hit of one pixel is joined to the second hit of another; direct light is each pixel's own "
-     "[Bekaert 2002]."},
-    {"replay", "random replay",
-     "The other pixel's path takes the same random numbers, all the way [Hua 2019, 3.1]."},
+     "Connects the first hit of one pixel to the second hit of another. Direct light is not reused [Bekaert "
+     "2002]."},
+    {"replay", "random replay", "The whole path of the other pixel uses the same random numbers [Hua 2019, 3.1]."},
     {"replay-reconnection", "replay, reconnection",
-     "Random numbers are replayed until two rough vertices can be connected [Hua 2019, 3.1]."},
+     "Replays random numbers until two rough vertices can be connected [Hua 2019, 3.1]."},
 };
 constexpr SettingChoice texture_filters[] = {
-    {"off", "off", "Points of textures are looked up, as in Mitsuba."},
+    {"off", "off", "Textures are looked up at points, as in Mitsuba."},
     {"camera", "by camera",
-     "Means of what a pixel covers, wherever the camera sees it, or would see it: less noise at a few samples, "
-     "where "
-     "much of a texture is in a pixel. Softer by less than a pixel."},
-    {"path", "by path", "The same, but in mirrors and through glass what a pixel covers there [Suykens 2001]."},
+     "Texture values are means over the footprint of a camera ray, at every surface as if the camera saw it "
+     "directly. Less noise at few samples where a pixel covers much of a texture. Blurs by less than a pixel."},
+    {"path", "by path",
+     "The same, but in mirrors and through glass with the footprint of the path [Suykens 2001]."},
 };
 constexpr SettingChoice guidings[] = {
-    {"off", "off", "Lights and BSDFs have all directions."},
-    {"auto", "where it pays",
-     "In scenes where passes tell that less noise makes up for the time that it takes; the others have the same "
-     "bits as without."},
-    {"on", "on", "In every scene, at places where samples do not tell that it is of no use."},
+    {"off", "off", "No direction is drawn from earlier passes."},
+    {"auto", "automatic",
+     "Guides paths in scenes where earlier passes show that the lower variance outweighs the cost. Other scenes "
+     "get the same bits as with off."},
+    {"on", "on", "Guides paths in every scene, except at places where samples show no gain."},
 };
 constexpr SettingChoice roulette_kinds[] = {
-    {"relative", "relative", "Against the noise of the tile: the unit of light does not matter."},
-    {"absolute", "absolute", "Against RR delta, a radiance [Bauszat 2017, 3.3]."},
+    {"relative", "relative", "Relative to the noise of the tile. Independent of the unit of radiance."},
+    {"absolute", "absolute", "Relative to RR delta, a radiance [Bauszat 2017, 3.3]."},
     {"none", "none", "Every path is reused."},
 };
 constexpr SettingChoice bases[] = {
     {"none", "none", "The radiance itself."},
     {"albedo", "albedo",
-     "The radiance over the albedo: the light that arrives is alike where textures differ. The picture is "
-     "multiplied by the mean albedo of many points of each pixel [Fang 2024]. Takes 168 bytes a pixel more."},
+     "The radiance divided by the albedo, which is smooth where only textures vary. The picture is multiplied by "
+     "the mean albedo of many points of each pixel [Fang 2024]. Takes at least 168 bytes more per pixel."},
     {"sh1", "harmonics, 4",
-     "The light over the albedo in parts, by where it comes from: these are alike where normals differ, too "
-     "[Fang 2024]. Four spherical harmonics, up to degree 1. Takes 568 bytes a pixel more."},
-    {"sh2", "harmonics, 9", "The same with nine, up to degree 2. Takes 1068 bytes a pixel more."},
-    {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes 1768 bytes a pixel more."},
-    {"box", "boxes, 9", "The same with nine parts of the sphere. Takes 1068 bytes a pixel more."},
+     "The radiance divided by the albedo, in components by incident direction, which are smooth where normals "
+     "vary, too [Fang 2024]. Four spherical harmonics, up to degree 1. Takes at least 568 bytes more per pixel."},
+    {"sh2", "harmonics, 9", "The same with nine, up to degree 2. Takes at least 1068 bytes more per pixel."},
+    {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes at least 1768 bytes more per pixel."},
+    {"box", "boxes, 9",
+     "The same with nine boxes of equal solid angle. Takes at least 1068 bytes more per pixel."},
 };
 } // namespace
 
@@ -92,7 +93,7 @@ std::span<const SettingChoice> method_choices() {
 
 namespace {
 
-/// Label and description of a reconstruction, without what guarantee_of() says.
+/// Label and description of a reconstruction, without its guarantee.
 struct NormText {
     std::string_view label, description;
 };
@@ -112,8 +113,8 @@ NormText text_of(Norm norm) {
         return {"mixed", "Least absolute misfits of the gradients, least squares of the primal, on raw samples."};
     case Norm::uniform:
         return {"uniform",
-                "Uniform control variates on raw samples: 50 times the mean of a pixel and its neighbours "
-                "plus the gradients [Rousselle 2016]."};
+                "Uniform control variates on raw samples: 50 times the mean of a pixel and its neighbours plus "
+                "the gradients [Rousselle 2016]."};
     case Norm::weighted:
         return {"weighted", "Control variates weighted by variances, on raw samples: noisy gradients have less "
                             "weight [Rousselle 2016]."};
@@ -129,7 +130,7 @@ NormText text_of(Norm norm) {
     return {};
 }
 
-/// "Consistent: at few samples ...".
+/// Returns the guarantee as text: "Consistent: at few samples ...".
 std::string guarantee_text(Norm norm) {
     const Guarantee guarantee = guarantee_of(norm);
     std::string kind(to_string(guarantee.convergence)), reason(guarantee.reason);
@@ -161,7 +162,7 @@ Setting method_setting(Method& method) {
 }
 
 Setting seed_setting(std::uint64_t& seed) {
-    return {"seed", "Seed", "Of the random numbers.", Setting::Natural{&seed}};
+    return {"seed", "Seed", "Seed of the random numbers.", Setting::Natural{&seed}};
 }
 
 Setting spp_setting(int& spp, int least) {
@@ -169,7 +170,7 @@ Setting spp_setting(int& spp, int least) {
 }
 
 Setting threads_setting(int& threads, int least) {
-    return {"threads", "Threads", "Threads of the renderer; 0: one a hardware thread.",
+    return {"threads", "Threads", "Number of render threads. 0: one per hardware thread.",
             Setting::Whole{&threads, least, most_threads}};
 }
 
@@ -178,62 +179,61 @@ Setting size_setting(glm::ivec2& size, int most) {
 }
 
 std::vector<Setting> settings_of(RenderSettings& s) {
-    const bool shares = reuses_paths(s.method), shifts = s.method != Method::pt,
-               joins = shifts && s.shift != ShiftKind::replay,
-               joins_long_edges = joins && s.shift != ShiftKind::reconnection;
+    const bool reuses = reuses_paths(s.method), shifts = s.method != Method::pt,
+               reconnects = shifts && s.shift != ShiftKind::replay,
+               uses_distance = reconnects && s.shift != ShiftKind::reconnection;
     return {
         {"tile", "Tile",
          "Edge of a tile, in pixels. The pixels of a tile reuse each other's paths. Used by PR and G-PR.",
-         Setting::Whole{&s.tile, 1, most_tile}, shares},
+         Setting::Whole{&s.tile, 1, most_tile}, reuses},
         {"adapt_tile", "Adapt",
-         "Cuts tiles into smaller ones where paths bring alike: there, many offsets cost more than they gain. "
-         "Where "
-         "sharing brings G-PR nothing, pixels take more paths of their own instead.",
+         "Splits a tile where reusing paths costs more than it gains. With G-PR, pixels that gain nothing from "
+         "reuse trace more paths of their own instead.",
          Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},
-        {"pattern", "Pattern", "Which pixels share their paths.", one_of(patterns, s.pattern),
+        {"pattern", "Pattern", "Pixels that reuse each other's paths.", one_of(patterns, s.pattern),
          s.method == Method::pr},
-        {"roulette", "Roulette", "How it is decided which base paths are reused.",
-         one_of(roulette_kinds, s.roulette), shares},
+        {"roulette", "Roulette", "Russian roulette that decides which base paths are reused.",
+         one_of(roulette_kinds, s.roulette), reuses},
         {"rr_delta", "RR delta",
-         "Absolute roulette: a path whose value (luminance, a radiance) is below delta is reused with probability "
-         "value / delta. 0: every path is reused.",
-         Setting::Real{&s.rr_delta, 0, 1e30f, 0, 10}, shares && s.roulette == RouletteKind::absolute},
-        {"basis", "Basis", "What primal and gradients are measured of, and the picture is made of.",
-         one_of(bases, s.basis), s.method != Method::pt},
-        {"shift", "Shift", "How a path is taken to another pixel.", one_of(shift_kinds, s.shift), shifts},
+         "Absolute roulette: a path whose value (luminance, a radiance) is below delta is reused with "
+         "probability value / delta, and at least 0.1. 0: every path is reused.",
+         Setting::Real{&s.rr_delta, 0, 1e30f, 0, 10}, reuses && s.roulette == RouletteKind::absolute},
+        {"basis", "Basis", "The quantity that is measured and reconstructed.", one_of(bases, s.basis),
+         s.method != Method::pt},
+        {"shift", "Shift", "How a base path is shifted to another pixel.", one_of(shift_kinds, s.shift), shifts},
         {"shift_distance", "Distance",
-         "Shift distance: the distance between pixels that reuse paths, in pixel widths. The shift copies the "
-         "half "
-         "vector where an edge is shorter than this, or a lobe narrower than the angle of this distance. "
-         "0: all edges are reconnected, as published.",
-         Setting::Real{&s.shift_distance, 0, 1000, 0, 20}, joins_long_edges, true},
-        {"max_depth", "Max depth", "Most edges of a light path. 1: only lamps seen directly; 2: and direct light.",
+         "Assumed distance between pixels that reuse paths, in pixel widths. The shift copies the half vector "
+         "where an edge is shorter than this, or a lobe narrower than the angle of this distance. 0: all edges "
+         "are reconnected, as published.",
+         Setting::Real{&s.shift_distance, 0, 1000, 0, 20}, uses_distance, true},
+        {"max_depth", "Max depth",
+         "Limit on the edges of a light path. 1: directly visible emission only. 2: direct light, too.",
          Setting::Whole{&s.max_depth, 1, most_edges}},
         {"filter_textures", "Filter textures",
-         "What of a texture a path looks up: colours of surfaces, and with PT of lamps that the camera sees.",
+         "Filter of reflectance textures. With PT, or without a basis, it applies to directly visible emitters, "
+         "too.",
          one_of(texture_filters, s.filter_textures), true, true},
         {"path_guiding", "Path guiding",
-         "Draws some of the directions at rough surfaces from where earlier passes found light to come from, by "
-         "place in the scene: as many as have paid there. The BSDF has the others.",
+         "Draws some directions at rough surfaces toward light that earlier passes found. Each place in the "
+         "scene uses the fraction with the least variance there.",
          one_of(guidings, s.path_guiding), true, true},
         {"edge_rays", "Edge rays",
          "Traces several camera rays per sample where a pixel sees several surfaces, or the edge of a directly "
          "visible emitter. Off: one ray, as published.",
          Setting::Switch{&s.edge_rays}, true, true},
         {"roulette_depth", "RR depth",
-         "Edges beyond which a path goes on with a probability that follows the reflectance it meets (at most "
-         "0.95). 0: it goes on to the max depth.",
+         "Number of edges after which Russian roulette can end a path. It continues with a probability that "
+         "follows the reflectance (0.1 to 0.95). 0: no roulette.",
          Setting::Whole{&s.roulette_depth, 0, most_edges}, true, true},
     };
 }
 
 std::vector<Setting> settings_of(ReconstructionSettings& s) {
     return {
-        {"norm", "Norm", "How the picture is made from primal and gradients (screened Poisson).",
+        {"norm", "Norm", "How the picture is reconstructed from primal and gradients.",
          one_of(norm_choices(), s.norm)},
         {"alpha", "Alpha",
-         "Weight of the primal against the gradients (no unit). Small: gradients alone decide on all but the "
-         "mean, as far as they are trusted; with weights of their own alpha counts half.",
+         "Weight of the primal relative to the gradients, without unit. A smaller alpha gives a smoother picture.",
          Setting::Real{&s.alpha, 1e-4f, 1e3f, 0.001f, 10},
          s.norm != Norm::none && s.norm != Norm::uniform && s.norm != Norm::smoothed && s.norm != Norm::oidn},
     };
@@ -241,10 +241,10 @@ std::vector<Setting> settings_of(ReconstructionSettings& s) {
 
 std::vector<Setting> settings_of(ReconstructionSettings& s, bool has_gradients) {
     std::vector<Setting> all = settings_of(s);
-    const bool smooths = applied(s.norm, false) != Norm::none;
+    const bool denoises_primal = applied(s.norm, false) != Norm::none;
     for (Setting& setting : all) {
-        const bool is_of_all = setting.id == "norm" && smooths;
-        setting.matters = setting.matters && (has_gradients || is_of_all);
+        const bool needs_no_gradients = setting.id == "norm" && denoises_primal;
+        setting.matters = setting.matters && (has_gradients || needs_no_gradients);
     }
     return all;
 }

@@ -16,25 +16,24 @@
 
 namespace tessera {
 
-/// What a surface does to light at one point, as plain numbers. Every alternative has
+/// The BSDF at a surface point. Every alternative of `kind` has
 ///   evaluate(to_previous, to_next)        the non-delta part: f cos and pdf_w
-///   sample(to_previous, lobe, u)          a direction of any part; empty: light ends here
+///   sample(to_previous, lobe, u)          a direction of any part; empty: the path ends
 ///   evaluate_delta(to_previous, scatter)  the delta part of that kind: direction, value and probability
-///   roughness()                           of the roughest non-delta part, 1 for diffuse; 0: there is none
-///   albedo(to_previous)                   about the share of light from everywhere that leaves along to_previous,
-///                                         by a closed form; 1 for what only reflects and refracts as glass does
-/// Directions are unit, in the shading frame, and point away from the surface. Values hold for radiance that
+///   roughness()                           alpha of the roughest non-delta part; 1: diffuse; 0: none
+///   albedo(to_previous)                   approximate directional albedo in closed form; 1 for mirrors and glass
+/// Directions are unit, in the shading frame, and point away from the surface. Values apply to radiance that
 /// arrives along to_next and leaves along to_previous.
 struct Bsdf {
     std::variant<Diffuse, RoughDiffuse, RoughConductor, SmoothConductor, SmoothDielectric, RoughDielectric,
                  ThinDielectric, Plastic, Phong, FurtherKinds>
         kind = Diffuse{};
 
-    /// The normal before relief bent the frame, in the frame. What is above the one surface and below the other is
-    /// cut off, or light would leak through.
+    /// Normal before a bump or normal map bent the frame, in the frame. A direction above one surface and below
+    /// the other is rejected to prevent light leaks.
     glm::vec3 unbent_normal{0, 0, 1};
-    /// How much light is lost as it gets steep to the unbent normal, where else its shadow would have a sharp edge
-    /// [Estevez 2019]: the square of the roughness in that formula. 0: none is. Negative: the frame is not bent.
+    /// Squared roughness of the shadowing term that softens the bump terminator [Estevez 2019]. 0: no softening;
+    /// negative: the frame is not bent.
     float terminator = -1;
     bool is_bent() const { return terminator >= 0; }
 
@@ -61,16 +60,17 @@ struct Bsdf {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
     }
 
-    /// Whether it sends all light that arrives one way: what is seen in it is as sharp as what is seen directly.
+    /// Returns whether the BSDF is a single delta reflection.
     bool is_mirror() const { return std::holds_alternative<SmoothConductor>(kind); }
 
-    /// About the directional albedo. Never below a hundredth in any channel, so that light can be divided by it.
+    /// Returns the approximate directional albedo, at least 0.01 per channel so that radiance can be divided by
+    /// it.
     Rgb albedo(glm::vec3 to_previous) const {
         return glm::max(std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind), Rgb(0.01f));
     }
 
-    /// Where light goes through the surface: index on the far side over that on the side of to_previous, by which
-    /// such scatters have their half vector, and by whose square radiance is divided. 1: nothing is bent.
+    /// Returns eta of METHODS (15) for transmission: the index of refraction on the far side over that on the
+    /// side of to_previous. Transmitted radiance is divided by its square. 1: light passes without bending.
     float relative_index(glm::vec3 to_previous) const {
         return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);
     }
@@ -84,10 +84,10 @@ private:
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
 };
 
-/// What kind of BSDF it is, in the words of scene files, such as "diffuse" or "roughconductor".
+/// Returns the kind of a BSDF as named in scene files, such as "diffuse" or "roughconductor".
 std::string_view kind_name(const Bsdf& bsdf);
 
-// Paths are made of these: plain numbers, and no more of them than a plastic takes.
+// Every path vertex holds a Bsdf, so it stays small and trivially copyable.
 static_assert(std::is_trivially_copyable_v<Bsdf>);
 static_assert(sizeof(Bsdf) <= sizeof(std::variant<Plastic>) + 16);
 

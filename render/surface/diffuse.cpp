@@ -12,12 +12,12 @@ namespace tessera {
 
 namespace {
 
-/// The angles that the model is written in.
+/// The angles of the Oren-Nayar model.
 struct Angles {
-    float alpha, beta; ///< the larger and the smaller one to the normal
+    float alpha, beta; ///< larger and smaller angle to the normal
     float sin_alpha, tan_beta;
-    float tan_mean; ///< of the mean of both
-    float cos_phi;  ///< of the angle between the two directions, seen from above
+    float tan_mean; ///< tangent of the mean of alpha and beta
+    float cos_phi;  ///< cosine of the azimuth between the two directions
 };
 
 Angles angles_of(glm::vec3 a, glm::vec3 b) {
@@ -34,14 +34,14 @@ Angles angles_of(glm::vec3 a, glm::vec3 b) {
             cos_phi};
 }
 
-/// pi f over the reflectance, in the qualitative model [Oren 1994].
+/// Returns pi f over the reflectance in the qualitative model [Oren 1994].
 float qualitative(const Angles& a, float sigma2) {
     const float constant = 1 - 0.5f * sigma2 / (sigma2 + 0.33f);
     const float facing = 0.45f * sigma2 / (sigma2 + 0.09f);
     return constant + facing * std::max(a.cos_phi, 0.0f) * a.sin_alpha * a.tan_beta;
 }
 
-/// pi f in the full model: light scattered once, and twice [Oren 1994].
+/// Returns pi f in the full model, with single and double scattering [Oren 1994].
 Rgb full(const Angles& a, float sigma2, Rgb reflectance) {
     const float steep = sigma2 / (sigma2 + 0.09f);
     const float beta = 2 * inv_pi * a.beta;
@@ -51,7 +51,7 @@ Rgb full(const Angles& a, float sigma2, Rgb reflectance) {
     const float c3 = 0.125f * steep * both * both;
     const float once = c1 + a.cos_phi * c2 * a.tan_beta + (1 - std::abs(a.cos_phi)) * c3 * a.tan_mean;
     const float twice = 0.17f * sigma2 / (sigma2 + 0.13f) * (1 - a.cos_phi * beta * beta);
-    // The fit goes below 0 for dark colours of very rough surfaces at grazing angles.
+    // The fit is negative for dark, very rough surfaces at grazing angles.
     return glm::max(reflectance * once + reflectance * reflectance * twice, 0.0f);
 }
 
@@ -77,9 +77,9 @@ std::optional<BsdfSample> RoughDiffuse::sample(glm::vec3 to_previous, float, glm
 
 namespace {
 
-/// A direction about +z with density (n + 1) / (2 pi) cos^n.
+/// Samples a direction about +z with pdf_w = (n + 1) / (2 pi) cos^n.
 glm::vec3 sample_lobe(float exponent, glm::vec2 u) {
-    // Logarithms serve here, as a float next to 1 has no digits for what a sharp lobe is made of.
+    // Logarithms keep precision for sharp lobes, where the cosine is close to 1.
     const float log_z = std::log1p(-u.x) / (exponent + 1);
     const float z = std::exp(log_z);
     const float r = std::sqrt(-std::expm1(2 * log_z));
@@ -92,11 +92,10 @@ glm::vec3 sample_lobe(float exponent, glm::vec2 u) {
 BsdfValue Phong::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     if (to_previous.z <= 0 || to_next.z <= 0)
         return {};
-    // [Lafortune 1994, eq. 8 and 10]
-    // The cosine by the chord: exact for sharp lobes, too.
+    // [Lafortune 1994, eq. 8 and 10]. 1 - cos is found from the chord, which is accurate for sharp lobes.
     const glm::vec3 chord = to_next - reflect(to_previous);
-    const float less_than_one = 0.5f * glm::dot(chord, chord); // 1 - cos
-    const float lobe = less_than_one < 1 ? std::exp(exponent * std::log1p(-less_than_one)) * 0.5f * inv_pi : 0;
+    const float one_minus_cos = 0.5f * glm::dot(chord, chord);
+    const float lobe = one_minus_cos < 1 ? std::exp(exponent * std::log1p(-one_minus_cos)) * 0.5f * inv_pi : 0;
     const float cosine_pdf = to_next.z * inv_pi;
     return {diffuse_reflectance * cosine_pdf + specular_reflectance * ((exponent + 2) * lobe * to_next.z),
             (1 - specular_weight) * cosine_pdf + specular_weight * (exponent + 1) * lobe};
@@ -115,8 +114,7 @@ std::optional<BsdfSample> Phong::sample(glm::vec3 to_previous, float lobe, glm::
 }
 
 float Phong::roughness() const {
-    // This is the roughness of microfacets whose normals have this exponent [Walter 2007, 5.2]; the lobe itself is
-    // narrower.
+    // The alpha of microfacets with this exponent [Walter 2007, 5.2]; it overestimates the width of the lobe.
     return is_black(diffuse_reflectance) ? std::min(std::sqrt(2 / (exponent + 2)), 1.0f) : 1;
 }
 

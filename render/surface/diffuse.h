@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// Lambert's law, on the upper side only.
+/// Lambertian reflection, on the upper side only.
 struct Diffuse {
     Rgb reflectance{0};
 
@@ -31,12 +31,11 @@ struct Diffuse {
     Rgb albedo(glm::vec3) const { return reflectance; }
 };
 
-/// Diffuse V-shaped grooves with the light that goes from one wall to the other [Oren 1994], as Mitsuba's
-/// `roughdiffuse`; the upper side only.
+/// Diffuse V-shaped grooves with interreflection [Oren 1994], as Mitsuba's `roughdiffuse`; the upper side only.
 struct RoughDiffuse {
     Rgb reflectance{0};
-    float sigma = 0;   ///< standard deviation of the slope's angle
-    bool fast = false; ///< without interreflection and two of the smaller terms
+    float sigma = 0;   ///< standard deviation of the facets' slope angle, radians
+    bool fast = false; ///< the qualitative model, without interreflection and two smaller terms
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
@@ -45,8 +44,8 @@ struct RoughDiffuse {
     Rgb albedo(glm::vec3) const { return reflectance; }
 };
 
-/// The modified Phong model [Lafortune 1994], a diffuse part and a lobe about the mirror direction; the upper side
-/// only.
+/// The modified Phong model [Lafortune 1994]: a diffuse part and a lobe about the mirror direction, on the upper
+/// side only.
 struct Phong : DiffuseAndLobe {
     float exponent;
 

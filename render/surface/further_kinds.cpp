@@ -2,7 +2,7 @@
 
 namespace tessera {
 
-// Apart from the header, so that all else that visits a Bsdf stays small.
+// Out of line, so that callers that visit a Bsdf stay small.
 
 BsdfValue FurtherKinds::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);

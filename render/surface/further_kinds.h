@@ -15,7 +15,7 @@
 
 namespace tessera {
 
-/// What Bsdf::relative_index() says of one kind.
+/// Returns Bsdf::relative_index() of one kind; 1 for kinds without it.
 template <class Kind>
 float relative_index_of(const Kind& kind, glm::vec3 to_previous) {
     if constexpr (requires { kind.relative_index(to_previous); })
@@ -24,9 +24,9 @@ float relative_index_of(const Kind& kind, glm::vec3 to_previous) {
         return 1;
 }
 
-/// The kinds of BSDF that take long anyhow, or that few scenes have, as one alternative of Bsdf::kind: libstdc++
-/// visits up to 11 by a switch, and more through a table of pointers, for which all kinds would pay. What needs
-/// more numbers than a Bsdf has room for looks them up in its material whenever it is asked.
+/// Expensive or rare kinds of BSDF, grouped into one alternative of Bsdf::kind. libstdc++ visits up to 11
+/// alternatives with a switch and more through a function table, which would slow all kinds down. Kinds too large
+/// for a Bsdf hold a pointer to their material and look up its textures in every call.
 struct FurtherKinds {
     std::variant<Mixture, Coated, Principled, ThinPrincipled, Ward, DiffuseTransmitter, MediumLayer> kind;
 

@@ -9,8 +9,8 @@ namespace tessera {
 BsdfValue RoughConductor::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     if (to_previous.z <= 0 || to_next.z <= 0)
         return {};
-    // f cos = F D G1 G1 / (4 cos_previous) [Walter 2007, eq. 20]; sampling visible normals has all but the
-    // Fresnel term and the shadowing of to_next in its density.
+    // f cos = F D G1 G1 / (4 cos_previous) [Walter 2007, eq. 20]. The pdf of sampling visible normals has all
+    // factors except F and the shadowing of to_next.
     const glm::vec3 half = half_vector(to_previous, to_next);
     const float cos_half = glm::dot(to_previous, half);
     const float pdf_w = facets.density(half) * facets.shadowing(to_previous, half) / (4 * to_previous.z);
@@ -57,7 +57,7 @@ DeltaValue SmoothDielectric::evaluate_delta(glm::vec3 to_previous, Scatter scatt
 
 namespace {
 
-/// Chooses between the two delta parts, of which reflection has the probability `reflectance`.
+/// Samples one of the two delta parts; reflection has the probability `reflectance`.
 template <class B>
 std::optional<BsdfSample> sample_delta(const B& bsdf, glm::vec3 to_previous, float lobe, float reflectance) {
     const Scatter scatter = lobe < reflectance ? Scatter::reflect : Scatter::transmit;
@@ -67,7 +67,7 @@ std::optional<BsdfSample> sample_delta(const B& bsdf, glm::vec3 to_previous, flo
     return std::make_optional<BsdfSample>(v.to_next, v.value, v.probability, true, scatter);
 }
 
-/// The share of light that a thin pane reflects: R + T R T + T R R R T + ... = 2 R / (1 + R), where T = 1 - R.
+/// Returns the reflectance of a thin pane: R + T R T + T R R R T + ... = 2 R / (1 + R) with T = 1 - R.
 float pane_reflectance(float cosine, float eta) {
     const float r = fresnel_dielectric(std::abs(cosine), eta).reflectance;
     return 2 * r / (1 + r);
@@ -96,7 +96,7 @@ BsdfValue RoughDielectric::evaluate(glm::vec3 to_previous, glm::vec3 to_next) co
     const bool transmits = to_previous.z * to_next.z < 0;
     const float relative = relative_index(to_previous);
     const glm::vec3 half = half_vector(to_previous, to_next, transmits ? relative : 1);
-    // Facets are seen alike from both sides, and from above by either direction.
+    // The facets are symmetric, so the upper of the two viewing directions stands for either.
     const glm::vec3 above = to_previous.z > 0 ? to_previous : -to_previous;
     const float masking = facets.shadowing(to_next, half);
     const float visible = facets.visible_pdf(above, half);
@@ -119,7 +119,7 @@ std::optional<BsdfSample> RoughDielectric::sample(glm::vec3 to_previous, float l
     const auto to_next =
         reflects ? reflect(to_previous, half) : refract(to_previous, half, relative_index(to_previous));
     if (!to_next || reflects != (to_next->z * to_previous.z > 0))
-        return {}; // the facet sends light to the side where its neighbours are in the way
+        return {}; // other facets block this direction
     const BsdfValue v = evaluate(to_previous, *to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};

@@ -7,10 +7,10 @@
 
 namespace tessera {
 
-/// Microfacets of a conductor; the upper side only.
+/// Microfacet reflection by a conductor, on the upper side only.
 struct RoughConductor {
     Microfacets facets;
-    Rgb eta{0}; ///< complex index of refraction over the outside's: eta + i k
+    Rgb eta{0}; ///< complex index of refraction relative to the outside: eta + i k
     Rgb k{1};
     Rgb specular_reflectance{1};
 
@@ -23,7 +23,7 @@ struct RoughConductor {
     }
 };
 
-/// A perfectly smooth conductor, or with eta = 0 and k = 1 a perfect mirror; the upper side only.
+/// A perfectly smooth conductor, on the upper side only; a perfect mirror for eta = 0 and k = 1.
 struct SmoothConductor {
     Rgb eta{0};
     Rgb k{1};
@@ -36,10 +36,10 @@ struct SmoothConductor {
     Rgb albedo(glm::vec3) const { return Rgb(1); }
 };
 
-/// A perfectly smooth boundary between two dielectrics. Radiance is divided by the square of the relative index
-/// where it crosses, as it is squeezed into another solid angle.
+/// A perfectly smooth boundary between two dielectrics. Transmitted radiance is divided by the square of the
+/// relative index, because refraction changes its solid angle.
 struct SmoothDielectric {
-    float eta = 1.5f; ///< index inside (below the surface) over outside
+    float eta = 1.5f; ///< index of refraction inside (below the surface) over outside
     Rgb specular_reflectance{1};
     Rgb specular_transmittance{1};
 
@@ -51,10 +51,10 @@ struct SmoothDielectric {
     float relative_index(glm::vec3 to_previous) const { return to_previous.z > 0 ? eta : 1 / eta; }
 };
 
-/// A thin pane of a dielectric, as one surface: light is reflected, or goes straight on; the bounces between the
+/// A thin dielectric pane as one surface, which reflects light or transmits it unbent. The bounces between its
 /// two faces are summed.
 struct ThinDielectric {
-    float eta = 1.5f; ///< index of the pane over that around it
+    float eta = 1.5f; ///< index of refraction of the pane over that around it
     Rgb specular_reflectance{1};
     Rgb specular_transmittance{1};
 
@@ -65,12 +65,11 @@ struct ThinDielectric {
     Rgb albedo(glm::vec3) const { return Rgb(1); }
 };
 
-/// Microfacets of a boundary between two dielectrics [Walter 2007]. Radiance is divided by the square of the
-/// relative index where it crosses, as by SmoothDielectric.
+/// A microfacet boundary between two dielectrics [Walter 2007]. Transmitted radiance is divided by the square of
+/// the relative index, as by SmoothDielectric.
 struct RoughDielectric {
     Microfacets facets;
-    float eta =
-        1.5f; ///< index inside (below the surface) over outside; not 1: facets that do not bend hide nothing
+    float eta = 1.5f; ///< index of refraction inside (below) over outside; not 1
     Rgb specular_reflectance{1};
     Rgb specular_transmittance{1};
 

@@ -11,18 +11,19 @@ namespace tessera {
 
 namespace {
 
-/// A direction inside the layer, on the side of the one outside.
+/// A refracted direction inside the layer, mirrored to the upper side.
 struct Inside {
     glm::vec3 direction;
-    float transmittance; ///< of the boundary; 0: no light gets through
+    float transmittance; ///< of the boundary
 };
 
+/// Refracts a direction into the layer.
 Inside enter(glm::vec3 d, float eta) {
     const DielectricFresnel f = fresnel_dielectric(d.z, eta);
     return {{d.x / eta, d.y / eta, -f.cos_next}, f.cos_next == 0 ? 0 : 1 - f.reflectance};
 }
 
-/// The direction outside; nothing: total reflection.
+/// Refracts a direction out of the layer; empty at total internal reflection.
 std::optional<glm::vec3> leave(glm::vec3 d, float eta) {
     const float sin2 = (d.x * d.x + d.y * d.y) * eta * eta;
     if (sin2 >= 1)
@@ -30,8 +31,8 @@ std::optional<glm::vec3> leave(glm::vec3 d, float eta) {
     return glm::vec3(d.x * eta, d.y * eta, std::sqrt(1 - sin2));
 }
 
-/// What is left of light on its ways down and up [Beer's law].
-Rgb absorption(const Coated& c, float cos_in, float cos_out) {
+/// Returns the transmittance of the layer on the ways down and up (Beer's law).
+Rgb layer_transmittance(const Coated& c, float cos_in, float cos_out) {
     return glm::exp(-c.material->thickness * c.material->sigma_a.evaluate(c.at) * (1 / cos_in + 1 / cos_out));
 }
 
@@ -39,10 +40,10 @@ float mean(Rgb c) {
     return (c.r + c.g + c.b) / 3;
 }
 
-/// The share of samples for the mirror on top.
+/// Returns the probability of sampling the reflection at the top of the layer.
 float specular_probability(const Coated& c, float transmittance) {
     const float specular = (1 - transmittance) * mean(c.material->specular_reflectance.evaluate(c.at));
-    const float base = transmittance * mean(absorption(c, 1, 1));
+    const float base = transmittance * mean(layer_transmittance(c, 1, 1));
     return specular > 0 ? specular / (specular + base) : 0;
 }
 
@@ -58,11 +59,11 @@ BsdfValue Coated::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     const BsdfValue v = material->base->resolve(at).evaluate(previous.direction, next.direction);
     if (is_black(v.f_cos))
         return {};
-    // Solid angles outside are larger by this [Walter 2007, eq. 17 for a flat boundary].
-    const float outside_per_inside = to_next.z / (eta * eta * next.direction.z);
-    const float share = previous.transmittance * next.transmittance * outside_per_inside;
-    return {v.f_cos * absorption(*this, previous.direction.z, next.direction.z) * share,
-            v.pdf_w * outside_per_inside * (1 - specular_probability(*this, previous.transmittance))};
+    // Solid angle inside per solid angle outside [Walter 2007, eq. 17 for a flat boundary].
+    const float inside_per_outside = to_next.z / (eta * eta * next.direction.z);
+    const float share = previous.transmittance * next.transmittance * inside_per_outside;
+    return {v.f_cos * layer_transmittance(*this, previous.direction.z, next.direction.z) * share,
+            v.pdf_w * inside_per_outside * (1 - specular_probability(*this, previous.transmittance))};
 }
 
 DeltaValue Coated::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
@@ -74,11 +75,12 @@ DeltaValue Coated::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const 
                    material->specular_reflectance.filtered(at) * (1 - previous.transmittance), specular};
     if (!(previous.transmittance > 0))
         return sum;
-    // A mirror at the base sends light the same way as that on top.
+    // A mirror below the layer reflects in the same direction as the layer's top.
     const DeltaValue base = material->base->resolve(at).evaluate_delta(previous.direction, scatter);
     if (!is_black(base.value)) {
         const float z = previous.direction.z;
-        sum.value += base.value * absorption(*this, z, z) * (previous.transmittance * previous.transmittance);
+        sum.value +=
+            base.value * layer_transmittance(*this, z, z) * (previous.transmittance * previous.transmittance);
         sum.probability += (1 - specular) * base.probability;
     }
     return sum;
@@ -94,8 +96,8 @@ std::optional<BsdfSample> Coated::sample(glm::vec3 to_previous, float lobe, glm:
     if (!is_delta) {
         if (!(previous.transmittance > 0))
             return {};
-        const float left = std::min((lobe - specular) / (1 - specular), 0x1.fffffep-1f);
-        const auto s = material->base->resolve(at).sample(previous.direction, left, u);
+        const float base_lobe = std::min((lobe - specular) / (1 - specular), 0x1.fffffep-1f);
+        const auto s = material->base->resolve(at).sample(previous.direction, base_lobe, u);
         if (!s)
             return {};
         is_delta = s->is_delta;
@@ -113,12 +115,13 @@ std::optional<BsdfSample> Coated::sample(glm::vec3 to_previous, float lobe, glm:
     return std::make_optional<BsdfSample>(*to_next, v.f_cos, v.pdf_w, false, Scatter::reflect);
 }
 
-/// As if diffuse light left through the boundary as easily as light comes in along to_previous.
+/// Treats the light's second crossing of the boundary as lossless.
 Rgb Coated::albedo(glm::vec3 to_previous) const {
     const Inside previous = enter({to_previous.x, to_previous.y, std::abs(to_previous.z)}, material->eta);
     const float in = previous.transmittance, z = previous.direction.z;
     const Rgb below =
-        in > 0 ? material->base->resolve(at).albedo(previous.direction) * absorption(*this, z, z) : Rgb(0);
+        in > 0 ? material->base->resolve(at).albedo(previous.direction) * layer_transmittance(*this, z, z)
+               : Rgb(0);
     return (1 - in) * material->specular_reflectance.filtered(at) + in * below;
 }
 
@@ -128,9 +131,9 @@ float Coated::roughness() const {
 
 namespace {
 
-/// Calls body(part, weight) for each part that counts.
+/// Calls body(component, weight) for each component with a positive weight.
 template <class Body>
-void for_each_part(const Mixture& m, const Body& body) {
+void for_each_component(const Mixture& m, const Body& body) {
     for (std::size_t i = 0; i < m.material->parts.size(); ++i)
         if (const float weight = m.material->weight(i, m.at); weight > 0)
             body(m.material->parts[i]->resolve(m.at), weight);
@@ -145,11 +148,12 @@ float sum_of_weights(const Mixture& m) {
 
 } // namespace
 
-// A part gives no sample where its value is black: there its density must not count, or light would be lost.
+// Components return no sample where their value is black. Their pdf must not count there, or energy would be
+// lost.
 
 BsdfValue Mixture::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     BsdfValue sum;
-    for_each_part(*this, [&](const Bsdf& part, float weight) {
+    for_each_component(*this, [&](const Bsdf& part, float weight) {
         const BsdfValue v = part.evaluate(to_previous, to_next);
         if (is_black(v.f_cos))
             return;
@@ -163,7 +167,7 @@ BsdfValue Mixture::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
 
 DeltaValue Mixture::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
     DeltaValue sum;
-    for_each_part(*this, [&](const Bsdf& part, float weight) {
+    for_each_component(*this, [&](const Bsdf& part, float weight) {
         const DeltaValue v = part.evaluate_delta(to_previous, scatter);
         if (is_black(v.value))
             return;
@@ -177,15 +181,15 @@ DeltaValue Mixture::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const
 }
 
 std::optional<BsdfSample> Mixture::sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-    float left = lobe * sum_of_weights(*this);
+    float rest = lobe * sum_of_weights(*this);
     std::optional<BsdfSample> s;
     bool is_chosen = false;
-    for_each_part(*this, [&](const Bsdf& part, float weight) {
-        if (!is_chosen && left < weight) {
+    for_each_component(*this, [&](const Bsdf& part, float weight) {
+        if (!is_chosen && rest < weight) {
             is_chosen = true;
-            s = part.sample(to_previous, std::min(left / weight, 0x1.fffffep-1f), u);
+            s = part.sample(to_previous, std::min(rest / weight, 0x1.fffffep-1f), u);
         }
-        left -= weight;
+        rest -= weight;
     });
     if (!s)
         return {};
@@ -201,19 +205,19 @@ std::optional<BsdfSample> Mixture::sample(glm::vec3 to_previous, float lobe, glm
 
 Rgb Mixture::albedo(glm::vec3 to_previous) const {
     Rgb sum(0);
-    for_each_part(*this, [&](const Bsdf& part, float weight) { sum += weight * part.albedo(to_previous); });
+    for_each_component(*this, [&](const Bsdf& part, float weight) { sum += weight * part.albedo(to_previous); });
     return sum;
 }
 
 float Mixture::roughness() const {
     float largest = 0;
-    for_each_part(*this, [&](const Bsdf& part, float) { largest = std::max(largest, part.roughness()); });
+    for_each_component(*this, [&](const Bsdf& part, float) { largest = std::max(largest, part.roughness()); });
     return largest;
 }
 
 float Mixture::relative_index(glm::vec3 to_previous) const {
     float index = 1;
-    for_each_part(*this, [&](const Bsdf& part, float) {
+    for_each_component(*this, [&](const Bsdf& part, float) {
         if (const float i = part.relative_index(to_previous); i != 1)
             index = i;
     });

@@ -9,11 +9,11 @@ namespace tessera {
 
 struct CoatedMaterial;
 
-/// A BSDF under a smooth, perhaps absorbing, dielectric layer [Weidlich 2007], as Mitsuba's `coating`: light that
-/// is sent back from the inside of the layer is lost. The upper side only. Looks its base up whenever it is asked,
-/// as a Mixture does.
+/// A BSDF under a smooth, possibly absorbing dielectric layer [Weidlich 2007], as Mitsuba's `coating`, on the
+/// upper side only. Light that the layer reflects internally is lost. Every call resolves the base, as in
+/// Mixture.
 struct Coated {
-    const CoatedMaterial* material = nullptr; ///< outlives this; its base transmits nothing
+    const CoatedMaterial* material = nullptr; ///< outlives this; its base is opaque
     SurfacePoint at{};
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
@@ -25,8 +25,8 @@ struct Coated {
 
 struct MixtureMaterial;
 
-/// A weighted sum of BSDFs. Unlike the others it looks its parts up whenever it is asked, so that a Bsdf stays
-/// small and only scenes with mixtures pay. Parts that transmit without scattering share one direction.
+/// A weighted sum of BSDFs. Its components are resolved in every call, so that a Bsdf stays small. Delta
+/// components of the same kind of scattering must have the same direction.
 struct Mixture {
     const MixtureMaterial* material = nullptr; ///< outlives this
     SurfacePoint at{};

@@ -9,21 +9,21 @@ namespace tessera {
 
 namespace {
 
-/// A texture of shares of light. Above 1, which only files of floats and scaled textures are, it makes energy, as
-/// in Mitsuba 3.
-Rgb share(const Texture& texture, const SurfacePoint& at) {
+/// Returns the filtered value of a reflectance or transmittance. Values above 1, from float files or scaled
+/// textures, are kept and create energy, as in Mitsuba 3.
+Rgb factor(const Texture& texture, const SurfacePoint& at) {
     return glm::max(texture.filtered(at), 0.0f);
 }
 
 Bsdf resolve(const DiffuseMaterial& m, const SurfacePoint& at) {
     const float alpha = m.alpha.scalar(at);
     if (alpha <= 0)
-        return {Diffuse{share(m.reflectance, at)}};
-    // RMS slope to the slope's angle, as Mitsuba has it.
-    return {RoughDiffuse{share(m.reflectance, at), alpha / std::sqrt(2.0f), m.fast}};
+        return {Diffuse{factor(m.reflectance, at)}};
+    // Mitsuba's conversion of the RMS slope to the standard deviation of the slope angle.
+    return {RoughDiffuse{factor(m.reflectance, at), alpha / std::sqrt(2.0f), m.fast}};
 }
 
-/// The facets of a ConductorMaterial or DielectricMaterial; alpha = 0: smooth.
+/// Returns the microfacets of a ConductorMaterial or DielectricMaterial; alpha = 0: smooth.
 template <class M>
 Microfacets facets_of(const M& m, const SurfacePoint& at) {
     const float alpha = m.alpha.scalar(at);
@@ -37,30 +37,31 @@ Microfacets facets_of(const M& m, const SurfacePoint& at) {
 
 Bsdf resolve(const ConductorMaterial& m, const SurfacePoint& at) {
     const Microfacets facets = facets_of(m, at);
-    const Rgb specular_reflectance = share(m.specular_reflectance, at);
+    const Rgb specular_reflectance = factor(m.specular_reflectance, at);
     if (facets.alpha <= 0)
         return {SmoothConductor{m.eta, m.k, specular_reflectance}};
     return {RoughConductor{facets, m.eta, m.k, specular_reflectance}};
 }
 
 Bsdf resolve(const DielectricMaterial& m, const SurfacePoint& at) {
-    const Rgb reflectance = share(m.specular_reflectance, at), transmittance = share(m.specular_transmittance, at);
+    const Rgb reflectance = factor(m.specular_reflectance, at),
+              transmittance = factor(m.specular_transmittance, at);
     if (m.thin)
         return {ThinDielectric{m.eta, reflectance, transmittance}};
     const Microfacets facets = facets_of(m, at);
-    if (facets.alpha > 0 && std::abs(m.eta - 1) > 1e-3f) // facets that bend no light are not seen
+    if (facets.alpha > 0 && std::abs(m.eta - 1) > 1e-3f) // without refraction, roughness is invisible
         return {RoughDielectric{facets, m.eta, reflectance, transmittance}};
     return {SmoothDielectric{m.eta, reflectance, transmittance}};
 }
 
 Bsdf resolve(const PlasticMaterial& m, const SurfacePoint& at) {
-    return {Plastic(*m.coating, m.facets, share(m.specular_reflectance, at), share(m.diffuse_reflectance, at),
+    return {Plastic(*m.coating, m.facets, factor(m.specular_reflectance, at), factor(m.diffuse_reflectance, at),
                     m.nonlinear)};
 }
 
 Bsdf resolve(const PhongMaterial& m, const SurfacePoint& at) {
-    return {Phong(std::max(m.exponent.scalar(at), 0.0f), share(m.diffuse_reflectance, at),
-                  share(m.specular_reflectance, at))};
+    return {Phong(std::max(m.exponent.scalar(at), 0.0f), factor(m.diffuse_reflectance, at),
+                  factor(m.specular_reflectance, at))};
 }
 
 Bsdf resolve(const MixtureMaterial& m, const SurfacePoint& at) {
@@ -81,23 +82,22 @@ Bsdf resolve(const ThinPrincipledMaterial& m, const SurfacePoint& at) {
 
 Bsdf resolve(const WardMaterial& m, const SurfacePoint& at) {
     const glm::vec2 alpha(m.alpha.scalar(at), m.alpha_v ? m.alpha_v->scalar(at) : m.alpha.scalar(at));
-    return {FurtherKinds{Ward(m.variant, glm::max(alpha, smallest_alpha), share(m.diffuse_reflectance, at),
-                              share(m.specular_reflectance, at))}};
+    return {FurtherKinds{Ward(m.variant, glm::max(alpha, smallest_alpha), factor(m.diffuse_reflectance, at),
+                              factor(m.specular_reflectance, at))}};
 }
 
 Bsdf resolve(const DiffuseTransmitterMaterial& m, const SurfacePoint& at) {
-    return {FurtherKinds{DiffuseTransmitter{share(m.transmittance, at)}}};
+    return {FurtherKinds{DiffuseTransmitter{factor(m.transmittance, at)}}};
 }
 
 Bsdf resolve(const MediumLayerMaterial& m, const SurfacePoint& at) {
-    // Of sigma_t the first is a part in any case.
-    Rgb scattered = glm::max(m.scattered.evaluate(at), 0.0f), lost = glm::max(m.lost.evaluate(at), 0.0f);
+    Rgb sigma_s = glm::max(m.scattered.evaluate(at), 0.0f), sigma_t = glm::max(m.lost.evaluate(at), 0.0f);
     if (m.by_share)
-        scattered = glm::min(scattered, 1.0f) * lost;
+        sigma_s = glm::min(sigma_s, 1.0f) * sigma_t;
     else
-        lost += scattered;
-    const Rgb albedo = scattered / glm::max(lost, 1e-20f);
-    return {FurtherKinds{MediumLayer{albedo, lost * m.thickness, m.g, m.is_clear}}};
+        sigma_t += sigma_s;
+    const Rgb albedo = sigma_s / glm::max(sigma_t, 1e-20f);
+    return {FurtherKinds{MediumLayer{albedo, sigma_t * m.thickness, m.g, m.is_clear}}};
 }
 
 std::vector<const Texture*> textures(const DiffuseMaterial& m) {

@@ -20,20 +20,21 @@ namespace tessera {
 
 struct Mesh;
 
-/// Where on a surface a texture is looked up.
+/// The point of a surface at which textures are looked up.
 struct SurfacePoint {
     glm::vec2 uv{0};
-    const Mesh* mesh = nullptr; ///< null: it has no attributes, or nothing looks them up
+    const Mesh* mesh = nullptr; ///< mesh with attributes; null: none, or unused
 
-    /// The sides of a parallelogram about uv, over which Texture::filtered() takes the mean; 0: it is a point.
+    /// Sides of a parallelogram around uv over which Texture::filtered() averages; 0: a point.
     struct Footprint {
         glm::vec2 along{0}, across{0};
     };
     struct OnMesh {
         std::uint32_t triangle;
-        glm::vec2 barycentric; ///< weights of the second and third corner
+        glm::vec2 barycentric; ///< weights of the second and third vertex
     };
-    /// Some BSDFs hold a point, and all have little room: with a mesh it is on_mesh, without one footprint.
+    /// A union, because some BSDFs contain a SurfacePoint and a Bsdf is small. With a mesh on_mesh is active,
+    /// else footprint.
     union {
         Footprint footprint{};
         OnMesh on_mesh;
@@ -42,72 +43,72 @@ struct SurfacePoint {
     SurfacePoint() = default;
     SurfacePoint(glm::vec2 uv_) : uv(uv_) {}
 
-    /// An attribute of the mesh, interpolated between vertices; white where there is none of that name.
+    /// Returns an attribute of the mesh, interpolated over the triangle; white if there is none of that name.
     Rgb attribute(std::string_view name) const;
 };
 
-/// The name of the attribute that vertices most often have.
+/// Name of the attribute that holds vertex colours.
 inline constexpr std::string_view vertex_color = "vertex_color";
 
-/// Numbers that a mesh has at its vertices or on its faces, for textures to look up.
+/// Values at the vertices or faces of a mesh that textures look up.
 struct MeshAttribute {
-    std::string name; ///< as in Mitsuba 3: begins with "vertex_" or "face_", and that is what it is of
-    std::vector<glm::vec3> values; ///< one a position, or one a triangle; colours are linear, one number is grey
+    std::string name; ///< starts with "vertex_" or "face_", which says what it belongs to, as in Mitsuba 3
+    std::vector<glm::vec3> values; ///< one per position or per triangle; linear colours; single numbers are grey
 
     bool is_of_faces() const { return name.starts_with("face_"); }
 };
 
-/// Triangles in world space.
+/// Triangles in world space, or in the local space of a ShapeGroup.
 struct Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;        ///< unit, one a position; empty: every triangle has its own normal
-    std::vector<glm::vec2> uvs;            ///< one a position; empty: barycentric coordinates serve as uv
-    std::vector<MeshAttribute> attributes; ///< no two of the same name
-    std::vector<glm::uvec3> triangles;     ///< indices of positions, counter-clockwise seen from outside
+    std::vector<glm::vec3> normals;        ///< unit, one per position; empty: flat shading
+    std::vector<glm::vec2> uvs;            ///< one per position; empty: barycentric coordinates serve as uv
+    std::vector<MeshAttribute> attributes; ///< with unique names
+    std::vector<glm::uvec3> triangles;     ///< indices of positions, counter-clockwise as seen from outside
 
-    /// Null: there is none of that name.
+    /// Returns the attribute of this name; null if there is none.
     const MeshAttribute* attribute(std::string_view name) const {
         const auto found = std::ranges::find(attributes, name, &MeshAttribute::name);
         return found == attributes.end() ? nullptr : &*found;
     }
 };
 
-/// The unit normal of a triangle, on the side to which the corners' normals point where there are any, else the
-/// one from which the corners run counter-clockwise. 0: the triangle has no area.
+/// Returns the unit normal of a triangle; 0 if it has no area. Its side is that of the vertex normals if there
+/// are any, else the side from which the vertices run counter-clockwise.
 glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 triangle);
 
-/// Where textures are looked up, at barycentric coordinates (weights of the second and third corner).
+/// Returns the surface point at barycentric coordinates (weights of the second and third vertex).
 SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, glm::vec2 barycentric);
 
-/// A mesh with what it is made of and, perhaps, the light it gives off.
+/// A mesh with its material and, if it emits light, its area light.
 struct Shape {
-    std::string name; ///< the id in the file, or the plugin's name
+    std::string name; ///< id in the file, or name of the plugin
     Mesh mesh;
     int material = 0;    ///< index into SceneDescription::materials
-    int area_light = -1; ///< index into SceneDescription::area_lights, -1: gives off no light
+    int area_light = -1; ///< index into SceneDescription::area_lights; -1: no emission
 };
 
-/// Shapes in a space of their own, held once however often they stand in the scene.
+/// Shapes in local space, stored once for all instances.
 struct ShapeGroup {
     std::string name;
-    std::vector<Shape> shapes; ///< none gives off light
+    std::vector<Shape> shapes; ///< none emits light
 };
 
-/// A group of shapes in the scene. Others than groups there are none in it.
+/// A placement of a group in the scene. Instances are not nested.
 struct Instance {
     int group = 0;            ///< index into SceneDescription::groups
-    glm::mat4 to_world{1.0f}; ///< affine; has an inverse
+    glm::mat4 to_world{1.0f}; ///< affine and invertible
 };
 
-/// What takes normals along with a transform of points: its inverse transpose times the determinant's size, which
-/// is defined for flat transforms, too.
+/// Returns the matrix that transforms normals: the inverse transpose times the absolute determinant, which also
+/// exists for singular transforms.
 inline glm::mat3 normal_matrix(const glm::mat3& m) {
     const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return glm::determinant(m) < 0 ? -cofactors : cofactors;
 }
 
 inline glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 t) {
-    // Double is needed: the square of a small or large triangle's area is beyond floats.
+    // In double, because the squared area of a small or large triangle exceeds the range of float.
     const glm::dvec3 corner = mesh.positions[t.x];
     const glm::dvec3 cross =
         glm::cross(glm::dvec3(mesh.positions[t.y]) - corner, glm::dvec3(mesh.positions[t.z]) - corner);

@@ -11,7 +11,7 @@ namespace tessera {
 
 namespace {
 
-/// Inverse of erf by Winitzki's formula with one step of Newton's; good to 1e-6 inside (-1, 1).
+/// Returns the inverse of erf by Winitzki's formula and two Newton steps; x is clamped to +-0.999999.
 float inverse_erf(float x) {
     const float bounded = std::clamp(x, -0.999999f, 0.999999f);
     const float w = std::log((1 - bounded) * (1 + bounded));
@@ -24,8 +24,8 @@ float inverse_erf(float x) {
     return y;
 }
 
-/// A slope along the direction of view from the facets seen at the angle of that view, for Beckmann with
-/// alpha = 1: the marginal's distribution function inverted by Newton's method within a bracket [Jakob 2014].
+/// Samples the slope along the viewing direction among visible Beckmann facets with alpha = 1. Inverts the
+/// marginal distribution function by Newton's method within a bracket [Jakob 2014].
 float sample_beckmann_slope(float cos_theta, float u) {
     const float sin_theta = std::sqrt(std::max(1 - cos_theta * cos_theta, 0.0f));
     const float tan_theta = sin_theta / cos_theta;
@@ -53,7 +53,7 @@ float sample_beckmann_slope(float cos_theta, float u) {
     return slope;
 }
 
-/// `alpha` is that along the tangent and along the bitangent, here and below.
+/// Samples a visible normal; `alpha` holds the roughness along tangent and bitangent.
 glm::vec3 sample_visible_beckmann(glm::vec3 direction, glm::vec2 alpha, glm::vec2 u) {
     const glm::vec3 stretched =
         glm::normalize(glm::vec3(alpha.x * direction.x, alpha.y * direction.y, direction.z));
@@ -67,14 +67,14 @@ glm::vec3 sample_visible_beckmann(glm::vec3 direction, glm::vec2 alpha, glm::vec
     return glm::normalize(glm::vec3(-slope.x, -slope.y, 1));
 }
 
-/// [Heitz 2018], by the projected disk.
+/// Samples a visible normal by the projected disk [Heitz 2018]; `alpha` as above.
 glm::vec3 sample_visible_ggx(glm::vec3 direction, glm::vec2 alpha, glm::vec2 u) {
     const glm::vec3 stretched =
         glm::normalize(glm::vec3(alpha.x * direction.x, alpha.y * direction.y, direction.z));
     glm::vec2 p = sample_disk(u);
     const float s = 0.5f * (1 + stretched.z);
-    // Seen from `stretched`, the hemisphere of facets covers a disk of which the half below the horizon is
-    // squeezed by s; the second axis points up, so that this half lies at negative y.
+    // Seen from `stretched`, the hemisphere of facets projects to a disk whose lower half is compressed. The
+    // second axis points up, so the lower half has negative y.
     const float length = std::sqrt(stretched.x * stretched.x + stretched.y * stretched.y);
     const glm::vec2 toward = length > 1e-6f ? glm::vec2(stretched) * (1 / length) : glm::vec2(0, -1);
     const glm::vec3 t1(-toward.y, toward.x, 0);
@@ -84,8 +84,7 @@ glm::vec3 sample_visible_ggx(glm::vec3 direction, glm::vec2 alpha, glm::vec2 u) 
     return glm::normalize(glm::vec3(alpha.x * n.x, alpha.y * n.y, std::max(n.z, 0.0f)));
 }
 
-/// The square of a vector, stretched along x and squeezed along y. What is the same in all directions, as most
-/// facets are, is spared the division.
+/// Returns the squared length of a vector stretched along x and compressed along y; fast if isotropic.
 float stretched_square(float x, float y, float stretch) {
     if (stretch != 1) [[unlikely]] {
         x *= stretch;
@@ -106,7 +105,7 @@ float Microfacets::density(glm::vec3 normal) const {
     if (normal.z <= 0)
         return 0;
     const float a2 = alpha * alpha;
-    // Slopes squeezed to those of facets of one roughness, alpha: an area of slopes stays as large [Heitz 2014].
+    // Maps slopes to those of isotropic facets with `alpha`; the map preserves areas of slopes [Heitz 2014].
     const float sin2 = stretched_square(normal.y, normal.x, stretch);
     const float cos2 = normal.z * normal.z;
     if (distribution == MicrofacetDistribution::ggx) {
@@ -114,7 +113,7 @@ float Microfacets::density(glm::vec3 normal) const {
         return inv_pi * a2 / (d * d);
     }
     const float exponent = sin2 / (a2 * cos2);
-    return exponent < 80 ? std::exp(-exponent) * inv_pi / (a2 * cos2 * cos2) : 0; // or 0 / 0 at grazing normals
+    return exponent < 80 ? std::exp(-exponent) * inv_pi / (a2 * cos2 * cos2) : 0; // no 0 / 0 at grazing angles
 }
 
 float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {
@@ -130,15 +129,15 @@ float Microfacets::shadowing(glm::vec3 direction, glm::vec3 normal) const {
     }
     const float a = std::sqrt(cos2 / sin2) / alpha;
     if (a > 4)
-        return 1; // less than 1e-9 is shadowed
+        return 1; // shadowing below 1e-9
     const float lambda = 0.5f * (std::erf(a) - 1) + std::exp(-a * a) / (2 * a * std::sqrt(pi));
     return 1 / (1 + std::max(lambda, 0.0f));
 }
 
 glm::vec3 Microfacets::sample_visible(glm::vec3 direction, glm::vec2 u) const {
-    const glm::vec2 along(alpha * stretch, alpha / stretch);
-    return distribution == MicrofacetDistribution::ggx ? sample_visible_ggx(direction, along, u)
-                                                       : sample_visible_beckmann(direction, along, u);
+    const glm::vec2 alphas(alpha * stretch, alpha / stretch);
+    return distribution == MicrofacetDistribution::ggx ? sample_visible_ggx(direction, alphas, u)
+                                                       : sample_visible_beckmann(direction, alphas, u);
 }
 
 float Microfacets::visible_pdf(glm::vec3 direction, glm::vec3 normal) const {

@@ -12,10 +12,10 @@ namespace tessera {
 
 namespace {
 
-/// Mean of a function of the normals of the facets seen from a direction.
+/// Returns the mean of a function over the facet normals visible from a direction.
 template <class F>
 float mean_over_facets(glm::vec3 from, const Microfacets& facets, const F& f) {
-    // u = (1 - cos t) / 2 with even t: the points crowd at the edges, where facets are steep and the function is.
+    // Uniform in t with u = (1 - cos t) / 2: denser near the edges, where the facets and the function are steep.
     constexpr int steps = 32;
     float sum = 0;
     float weights = 0;
@@ -29,11 +29,12 @@ float mean_over_facets(glm::vec3 from, const Microfacets& facets, const F& f) {
     return sum / weights;
 }
 
+/// Returns a unit direction with this cosine.
 glm::vec3 from_cosine(float cosine) {
     return {std::sqrt(std::max(1 - cosine * cosine, 0.0f)), 0, cosine};
 }
 
-/// Share of light that a faceted boundary reflects, of what comes from the side of `cosine` > 0: the mean of F G1.
+/// Returns the reflectance of a rough boundary for light from the side of `cosine` > 0: the mean of F G1.
 float reflectance(float cosine, float eta, const Microfacets& facets) {
     const glm::vec3 from = from_cosine(cosine);
     return mean_over_facets(from, facets, [&](glm::vec3 normal) {
@@ -43,8 +44,8 @@ float reflectance(float cosine, float eta, const Microfacets& facets) {
     });
 }
 
-/// Share that it lets through: the mean of (1 - F) G1 of the refracted direction. The two do not add up to 1, as
-/// what other facets stand in the way of is lost; Mitsuba has it so.
+/// Returns the transmittance of a rough boundary: the mean of (1 - F) G1 of the refracted direction. It does not
+/// add up to 1 with the reflectance, because light blocked by other facets is lost, as in Mitsuba.
 float transmittance_of_facets(float cosine, float eta, const Microfacets& facets) {
     const glm::vec3 from = from_cosine(cosine);
     return mean_over_facets(from, facets, [&](glm::vec3 normal) {
@@ -57,19 +58,18 @@ float transmittance_of_facets(float cosine, float eta, const Microfacets& facets
     });
 }
 
-/// Share of diffuse light that comes back from a boundary; it arrives with density 2 cos over cosines.
+/// Returns the reflectance of a boundary for diffuse light, whose density over cosines is 2 cos.
 float diffuse_reflectance_of(float eta, const Microfacets& facets) {
     float sum = 0;
     if (facets.alpha <= 0) {
-        constexpr int steps = 256; // midpoints, as total reflection has a sharp edge
+        constexpr int steps = 256; // midpoint rule; total internal reflection has a sharp edge
         for (int i = 0; i < steps; ++i) {
             const float cosine = (static_cast<float>(i) + 0.5f) / steps;
             sum += 2 * cosine * fresnel_dielectric(cosine, eta).reflectance / steps;
         }
         return sum;
     }
-    // Mitsuba's `roughplastic` takes the mean of 64 values with both ends, which is up to 0.02 less than the
-    // integral, and what scenes were made with.
+    // Mitsuba's `roughplastic` averages 64 values including both ends instead of integrating; this matches it.
     constexpr int values = 64;
     for (int i = 0; i < values; ++i) {
         const float cosine = std::max(static_cast<float>(i) / (values - 1), 1e-6f);
@@ -96,7 +96,7 @@ Coating::Coating(float eta_, MicrofacetDistribution distribution, float alpha) :
 
 Coating Coating::without_bounces(float eta) {
     Coating coating(eta, MicrofacetDistribution::beckmann, 0);
-    coating.internal_reflectance = 1 - 1 / (eta * eta); // by which both are undone in Plastic::base
+    coating.internal_reflectance = 1 - 1 / (eta * eta); // cancels the factor 1 / eta^2 in Plastic::base
     return coating;
 }
 
@@ -109,7 +109,7 @@ float Coating::transmittance(float cosine) const {
 
 Plastic::Plastic(const Coating& coating_, Microfacets facets_, Rgb specular, Rgb diffuse, bool nonlinear)
     : coating(&coating_), facets(facets_), specular_reflectance(specular) {
-    // The geometric series of bounces between base and coating; 1/eta^2 for the solid angle on the way out.
+    // Geometric series of bounces between base and coating; 1 / eta^2 accounts for the solid angle on leaving.
     const Rgb back = (nonlinear ? glm::min(diffuse, Rgb(1)) : Rgb(1)) * coating->internal_reflectance;
     base = diffuse / (Rgb(1) - back) / (coating->eta * coating->eta);
     const float s = mean(specular), d = mean(diffuse);
@@ -142,7 +142,7 @@ BsdfValue Plastic::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
 
 Rgb Plastic::albedo(glm::vec3 to_previous) const {
     const float in = coating->transmittance(to_previous.z);
-    // What diffuse light from inside gets out is 1 - internal_reflectance, over 1/eta^2 of the solid angle.
+    // Diffuse light leaves with the fraction 1 - internal_reflectance; eta^2 cancels the factor in `base`.
     const float out = (1 - coating->internal_reflectance) * coating->eta * coating->eta;
     return (1 - in) * specular_reflectance + in * out * base;
 }

@@ -8,44 +8,45 @@
 
 namespace tessera {
 
-/// How much light a dielectric boundary lets through, smooth or faceted, over the cosine on the outside. A table,
-/// as facets have no formula for it; made once a material.
+/// The transmittance of a smooth or rough dielectric boundary as a function of the outer cosine. Tabulated once
+/// per material, because rough boundaries have no closed form.
 struct Coating {
-    static constexpr int resolution = 64; ///< cosines from 0 to 1
+    static constexpr int resolution = 64; ///< number of cosines from 0 to 1
 
     /// alpha = 0: a smooth boundary.
     Coating(float eta, MicrofacetDistribution distribution, float alpha);
 
-    /// A smooth one under which light is scattered once: as `pplastic` of Mitsuba 3 has it, where neither what is
-    /// sent back in counts nor that solid angles outside are larger.
+    /// Makes a smooth coating for Mitsuba 3's `pplastic`, which ignores internal reflection and the change of
+    /// solid angle by refraction.
     static Coating without_bounces(float eta);
 
+    /// Returns the transmittance for a cosine on the outside.
     float transmittance(float cosine) const;
 
-    float eta;                           ///< index inside over outside
-    std::array<float, resolution> table; ///< share of light from outside that gets in
-    float internal_reflectance;          ///< share of diffuse light from inside that is sent back
+    float eta;                           ///< index of refraction inside over outside
+    std::array<float, resolution> table; ///< transmittance from outside
+    float internal_reflectance;          ///< reflectance of the boundary for diffuse light from inside
 };
 
-/// A diffuse base under a dielectric coating, as Mitsuba's `plastic` (alpha = 0) and `roughplastic` have it; the
-/// upper side only. The coating reflects by itself; what gets in is scattered by the base, and gets out, or is
-/// sent back in.
+/// A diffuse base under a dielectric coating, as Mitsuba's `plastic` (alpha = 0) and `roughplastic`, on the upper
+/// side only. The coating reflects specularly; transmitted light bounces between base and coating until it
+/// leaves.
 struct Plastic {
     const Coating* coating = nullptr;
     Microfacets facets{MicrofacetDistribution::beckmann, 0}; ///< alpha = 0: smooth
     Rgb specular_reflectance{1};
-    Rgb base{0}; ///< what the base sends out of the light that has got in, after all its bounces inside
-    float specular_weight = 0.5f; ///< share of samples for the coating where both reflect alike
+    Rgb base{0}; ///< pi f of the base after all internal bounces, without the transmittances of the coating
+    float specular_weight = 0.5f; ///< weight of the coating in sampling, from the two reflectances
 
     /// @param diffuse_reflectance of the base
-    /// @param nonlinear           the colour deepens with each bounce inside
+    /// @param nonlinear           the colour saturates with each internal bounce
     Plastic(const Coating& coating, Microfacets facets, Rgb specular_reflectance, Rgb diffuse_reflectance,
             bool nonlinear);
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
-    /// The roughness of the base, through which paths can be connected; without one that of the coating.
+    /// Returns 1, the roughness of the diffuse base; without a base the roughness of the coating.
     float roughness() const { return is_black(base) ? facets.alpha : 1; }
     Rgb albedo(glm::vec3 to_previous) const;
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace principled;
 
-/// Facets of the clear coat, with long tails: GTR with an exponent of 1 [Burley 2012, B.2].
+/// Microfacets of the clear coat: the long-tailed GTR distribution with exponent 1 [Burley 2012, B.2].
 struct ClearCoat {
     float alpha2;
 
@@ -25,10 +25,11 @@ struct ClearCoat {
         const float alpha = 0.1f + gloss * (0.001f - 0.1f);
         alpha2 = alpha * alpha;
     }
+    /// Returns the density of facet normals per solid angle.
     float density(float cosine) const {
         return (alpha2 - 1) / (pi * std::log(alpha2) * (1 + (alpha2 - 1) * cosine * cosine));
     }
-    /// With a density of density() * cosine.
+    /// Samples a normal with pdf_w = density() * cosine.
     glm::vec3 sample(glm::vec2 u) const {
         const float cos2 = std::clamp((1 - std::pow(alpha2, 1 - u.y)) / (1 - alpha2), 0.0f, 1.0f);
         const float sine = std::sqrt(1 - cos2), phi = 2 * pi * u.x;
@@ -36,14 +37,14 @@ struct ClearCoat {
     }
 };
 
-/// What a Principled is made of at its point.
+/// The parameters of a Principled at its point.
 struct Base {
     Rgb color;
     Microfacets facets;
     float metallic;
-    float diffuse;      ///< share of the base that is diffuse
-    float transmission; ///< share that is glass
-    float coat;         ///< factor on the clear coat
+    float diffuse;      ///< diffuse fraction of the base
+    float transmission; ///< glass fraction of the base
+    float coat;         ///< weight of the clear coat
 
     explicit Base(const Principled& p)
         : color(p.material->base_color.filtered(p.at)),
@@ -55,26 +56,27 @@ struct Base {
         coat = 0.25f * p.material->clearcoat.scalar(p.at);
     }
 
-    /// Samples from above are shared among diffuse base, coat and facets as diffuse : coat : 1.
-    float all_shares() const { return diffuse + coat + 1; }
-    /// The share of what is sampled by facets that is refracted.
+    /// Returns the sum of the sampling weights from above: of diffuse base, coat and facets (1).
+    float total_weight() const { return diffuse + coat + 1; }
+    /// Returns the probability of refraction when a facet is sampled.
     float refracted(bool above, float fresnel) const { return (above ? transmission : 1) * (1 - fresnel); }
 };
 
-/// The Fresnel term of facets seen from above: a metal's, a dielectric's, and a tinted dielectric's.
+/// Returns the Fresnel term of facets seen from above: a blend of metal, dielectric and tinted dielectric.
 Rgb fresnel_of(const Principled& p, const Base& base, float dielectric, float cos_half) {
     const PrincipledMaterial& m = *p.material;
-    const float tinted = m.spec_tint.scalar(p.at);
-    Rgb sum((1 - base.metallic) * (1 - tinted) * dielectric);
+    const float tint_weight = m.spec_tint.scalar(p.at);
+    Rgb sum((1 - base.metallic) * (1 - tint_weight) * dielectric);
     if (base.metallic > 0)
         sum += base.metallic * schlick(base.color, cos_half, m.eta);
-    if (tinted > 0)
-        sum += (1 - base.metallic) * tinted *
+    if (tint_weight > 0)
+        sum += (1 - base.metallic) * tint_weight *
                schlick(tint(base.color) * reflectance_at_normal(m.eta), cos_half, m.eta);
     return sum;
 }
 
-/// Diffuse base, sheen and clear coat, for directions above; the pdf before shares are divided by their sum.
+/// Evaluates diffuse base, sheen and clear coat for two upper directions; the pdf lacks the factor 1 /
+/// total_weight().
 BsdfValue evaluate_upper(const Principled& p, const Base& base, glm::vec3 to_previous, glm::vec3 to_next,
                          glm::vec3 half) {
     const PrincipledMaterial& m = *p.material;
@@ -107,25 +109,25 @@ BsdfValue Principled::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     const BsdfValue upper =
         above && !transmits ? evaluate_upper(*this, base, to_previous, to_next, half) : BsdfValue{};
 
-    // The facets, as those of RoughDielectric.
+    // Facets, as in RoughDielectric::evaluate().
     const float masking = base.facets.shadowing(to_next, half);
     const float visible = base.facets.visible_pdf(above ? to_previous : -to_previous, half);
     const float cos_half = glm::dot(to_previous, half);
     const float fresnel = fresnel_dielectric(cos_half, material->eta).reflectance;
     const float refracted = base.refracted(above, fresnel);
     const float facets = visible * half_vector_jacobian(to_previous, to_next, half, transmits ? relative : 1);
-    const float all_shares = above ? base.all_shares() : 1;
+    const float total_weight = above ? base.total_weight() : 1;
     BsdfValue v = upper;
     if (masking > 0 && visible > 0) {
         v.pdf_w += (transmits ? refracted : 1 - refracted) * facets;
         if (transmits)
             v.f_cos = glm::sqrt(base.color) *
                       (base.transmission * (1 - fresnel) * facets * masking / (relative * relative));
-        else if (fresnel > 0) // as in Mitsuba 3, nothing else is reflected where there is no step in the index
+        else if (fresnel > 0) // as in Mitsuba 3, facets reflect nothing where the indices are equal
             v.f_cos += facets * masking *
                        (above ? fresnel_of(*this, base, fresnel, cos_half) : Rgb(base.transmission * fresnel));
     }
-    v.pdf_w /= all_shares;
+    v.pdf_w /= total_weight;
     return v;
 }
 
@@ -134,22 +136,22 @@ std::optional<BsdfSample> Principled::sample(glm::vec3 to_previous, float lobe, 
     const bool above = to_previous.z > 0;
     if (to_previous.z == 0 || (!above && base.transmission <= 0))
         return {};
-    float left = above ? lobe * base.all_shares() : base.diffuse + base.coat + lobe;
+    float rest = above ? lobe * base.total_weight() : base.diffuse + base.coat + lobe;
     std::optional<glm::vec3> to_next;
     bool transmits = false;
-    if (left < base.diffuse) {
+    if (rest < base.diffuse) {
         to_next = sample_cosine_hemisphere(u);
-    } else if ((left -= base.diffuse) < base.coat) {
+    } else if ((rest -= base.diffuse) < base.coat) {
         to_next = reflect(to_previous, ClearCoat(material->clearcoat_gloss.scalar(at)).sample(u));
     } else {
-        left -= base.coat;
+        rest -= base.coat;
         const glm::vec3 half = base.facets.sample_visible(above ? to_previous : -to_previous, u);
         const float fresnel = fresnel_dielectric(glm::dot(to_previous, half), material->eta).reflectance;
-        transmits = left < base.refracted(above, fresnel);
+        transmits = rest < base.refracted(above, fresnel);
         to_next = transmits ? refract(to_previous, half, relative_index(to_previous)) : reflect(to_previous, half);
     }
     if (!to_next || transmits != (to_next->z * to_previous.z < 0))
-        return {}; // other facets are in the way
+        return {}; // other facets block this direction
     const BsdfValue v = evaluate(to_previous, *to_next);
     if (!(v.pdf_w > 0) || is_black(v.f_cos))
         return {};
@@ -164,7 +166,7 @@ float Principled::roughness() const {
     return base.facets.alpha;
 }
 
-/// As if all facets lay flat; without sheen and clear coat.
+/// Treats all facets as flat and omits sheen and clear coat.
 Rgb Principled::albedo(glm::vec3 to_previous) const {
     const Base base(*this);
     const float fresnel = fresnel_dielectric(to_previous.z, material->eta).reflectance;

@@ -13,8 +13,8 @@ namespace tessera {
 struct PrincipledMaterial;
 struct ThinPrincipledMaterial;
 
-/// Disney's principled BSDF [Burley 2012, Burley 2015] as Mitsuba 3 reads it: a base that is diffuse, metal, rough
-/// glass, or anything between, under sheen and a clear coat. Black from below where it transmits nothing.
+/// Disney's principled BSDF [Burley 2012, Burley 2015] as in Mitsuba 3: a blend of a diffuse, a metallic and a
+/// rough glass base under sheen and a clear coat. Black from below if it does not transmit light.
 struct Principled {
     const PrincipledMaterial* material = nullptr; ///< outlives this
     SurfacePoint at{};
@@ -27,8 +27,8 @@ struct Principled {
     float relative_index(glm::vec3 to_previous) const;
 };
 
-/// The same for a sheet without thickness [Burley 2015, 5.3]: it looks the same from both sides, and what goes
-/// through is scattered, not bent.
+/// Disney's principled BSDF for a sheet without thickness [Burley 2015, 5.3]. Both sides are alike, and
+/// transmitted light is scattered but not refracted.
 struct ThinPrincipled {
     const ThinPrincipledMaterial* material = nullptr; ///< outlives this
     SurfacePoint at{};

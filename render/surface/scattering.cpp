@@ -49,7 +49,7 @@ Rgb fresnel_conductor(float cos_previous, Rgb eta, Rgb k) {
     const Rgb s2 = 2.0f * cos_previous * a;
     const Rgb p1 = a2_plus_b2 * cos2 + sin2 * sin2;
     const Rgb p2 = s2 * sin2;
-    // The mean of (s1 - s2) / (s1 + s2), perpendicular, and of (p1 - p2) / (p1 + p2) of it, parallel.
+    // Mean of the perpendicular part s = (s1 - s2) / (s1 + s2) and the parallel part s (p1 - p2) / (p1 + p2).
     return (s1 - s2) * p1 / ((s1 + s2) * (p1 + p2));
 }
 
@@ -57,7 +57,7 @@ namespace {
 
 constexpr std::string_view kind_names[] = {"diffuse",    "roughdiffuse",    "roughconductor", "conductor",
                                            "dielectric", "roughdielectric", "thindielectric", "plastic",
-                                           "phong"}; // of Bsdf::kind but its last
+                                           "phong"}; // alternatives of Bsdf::kind except the last
 static_assert(std::size(kind_names) + 1 == std::variant_size_v<decltype(Bsdf::kind)>);
 
 constexpr std::string_view further_names[] = {"mixture", "coating",   "principled", "principledthin",

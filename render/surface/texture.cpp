@@ -35,7 +35,7 @@ const std::array<float, 256> linear_of_srgb = [] {
     return table;
 }();
 
-/// Derivative of bilinear()'s luminance by u and v.
+/// Returns the derivatives of the luminance of bilinear() by u and v.
 glm::vec2 bilinear_gradient(const Bitmap& bitmap, glm::vec2 uv, Wrap mode) {
     const Corners c = corners(bitmap, uv, mode);
     const Rgb by_x = glm::mix(c.upper_right - c.upper_left, c.lower_right - c.lower_left, c.down);
@@ -83,8 +83,8 @@ glm::vec2 Texture::gradient(const SurfacePoint& at) const {
         bilinear_gradient(*texture->bitmap, {wrap(uv.x, texture->wrap), wrap(uv.y, texture->wrap)}, texture->wrap);
     for (int i = 0; i < 2; ++i)
         if (texture->wrap == Wrap::mirror && std::fmod(std::abs(std::floor(uv[i])), 2.0f) == 1)
-            by_look_up[i] = -by_look_up[i];         // looked up backward
-    return scale * (by_look_up * glm::mat2(to_uv)); // the row vector times the matrix: chain rule
+            by_look_up[i] = -by_look_up[i];         // mirrored repetition
+    return scale * (by_look_up * glm::mat2(to_uv)); // chain rule: row vector times matrix
 }
 
 Rgb Texture::mean() const {

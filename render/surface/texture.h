@@ -16,30 +16,29 @@ namespace tessera {
 
 struct Bitmap;
 
-/// Smaller and smaller copies of a bitmap, down to a pixel; made when they are first asked for, by any thread, and
-/// shared by copies.
+/// The mip levels of a bitmap, made on first use (thread-safe) and shared by copies of this object.
 class MipLevels {
 public:
-    /// Each half the size of the one before, the first of `bitmap`: means of its pixels, linear. None: the bitmap
-    /// has but one colour, or one pixel.
+    /// Returns the levels below `bitmap` down to one pixel; each averages the one above in linear colour and
+    /// halves its size. Empty if the bitmap has one colour.
     const std::vector<Bitmap>& of(const Bitmap& bitmap) const;
 
 private:
-    struct Made;
-    std::shared_ptr<Made> made_ = make();
-    static std::shared_ptr<Made> make();
+    struct Levels;
+    std::shared_ptr<Levels> levels_ = make_levels();
+    static std::shared_ptr<Levels> make_levels();
 };
 
-/// An image as it came from the file; bytes stay bytes, so that a texture takes no more memory than it must.
+/// An image as read from a file; 8-bit pixels stay 8-bit to save memory.
 struct Bitmap {
     int width = 0;
     int height = 0;
-    bool srgb = true;                ///< bytes are sRGB encoded; else they are linear
-    std::vector<std::uint8_t> bytes; ///< 3 a pixel, rows from the top; empty when `floats` is used
-    PixelVector<Rgb> floats;         ///< linear; empty when `bytes` is used
-    MipLevels mips{};                ///< what Texture::filtered() has made of it
+    bool srgb = true;                ///< whether `bytes` are sRGB encoded; else linear
+    std::vector<std::uint8_t> bytes; ///< 3 per pixel, rows from the top; empty if `floats` is used
+    PixelVector<Rgb> floats;         ///< linear; empty if `bytes` is used
+    MipLevels mips{};                ///< for Texture::filtered()
 
-    /// Linear colour of a pixel inside the image.
+    /// Returns the linear colour of a pixel; the coordinates must be inside the image.
     Rgb texel(int x, int y) const;
 };
 
@@ -52,44 +51,45 @@ struct BitmapTexture {
     Wrap wrap = Wrap::repeat;
 };
 
-/// Mitsuba's checkerboard: color0 where both or neither of u and v have a fraction above one half.
+/// Mitsuba's checkerboard: color0 where both or neither of u and v have a fractional part above 1/2.
 struct CheckerboardTexture {
     Rgb color0{0.4f};
     Rgb color1{0.2f};
 };
 
-/// What the mesh itself has at its vertices or on its faces (MeshAttribute).
+/// Looks up a MeshAttribute.
 struct AttributeTexture {
     std::string name;
 };
 
-/// A colour over a surface: constant, or looked up. As in Mitsuba, v = 0 is the top of a bitmap; the v of an
-/// OBJ file, which counts from the bottom, is turned over when the file is read.
+/// A colour over a surface. As in Mitsuba, v = 0 is the top row of a bitmap. The OBJ loader flips v, which counts
+/// from the bottom in OBJ files.
 struct Texture {
     std::variant<Rgb, BitmapTexture, CheckerboardTexture, AttributeTexture> kind = Rgb(0.5f);
     glm::mat3 to_uv{1.0f}; ///< applied to (u, v, 1) before the look-up
-    float scale = 1;       ///< factor on what was looked up; constants have it in them
+    float scale = 1;       ///< factor on the looked-up value; not applied to constants
 
     Texture() = default;
     Texture(Rgb constant) : kind(constant) {}
 
+    /// Returns the value at a point, without filtering.
     Rgb evaluate(const SurfacePoint& at) const;
 
-    /// About its mean over the footprint of `at`, for what a picture is linear in, such as reflectances; the same
-    /// as evaluate() where the footprint is a point, or smaller than a pixel of a bitmap, and where there is but
-    /// one colour. Where attributes of a mesh are looked up nothing is filtered.
+    /// Returns the approximate mean over the footprint of `at`. Meant for parameters in which radiance is linear,
+    /// such as reflectances. Equals evaluate() for a footprint that is a point or smaller than a texel, and for
+    /// meshes with attributes. See METHODS, "Filtered textures".
     Rgb filtered(const SurfacePoint& at) const;
 
-    /// Its luminance; quick where it is constant, and then the red channel: it is grey.
+    /// Returns the luminance; of a constant the red channel, because scalar constants are grey.
     float scalar(const SurfacePoint& at) const {
         const Rgb* constant = std::get_if<Rgb>(&kind);
         return constant ? constant->r : luminance(evaluate(at));
     }
 
-    /// Derivatives of the luminance by u and v. 0 for all but bitmaps: a checkerboard has only steps.
+    /// Returns the derivatives of the luminance by u and v; 0 for all kinds except bitmaps.
     glm::vec2 gradient(const SurfacePoint& at) const;
 
-    /// The mean over uv in [0, 1]^2 before to_uv; of attributes white.
+    /// Returns the mean over the whole bitmap or checkerboard, ignoring to_uv; `scale` for attributes.
     Rgb mean() const;
 
     bool is_black() const { return is_constant() && std::get<Rgb>(kind) == Rgb(0); }

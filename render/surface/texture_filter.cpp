@@ -1,6 +1,5 @@
-// Texture::filtered(): means over footprints. Bitmaps have smaller copies of themselves for that, of which one is
-// chosen by the narrow side of the footprint, and several points are taken along the wide one [as Suykens
-// 2001, 5.1].
+// Texture::filtered(): means over footprints. The narrow side of a footprint selects the mip level of a bitmap,
+// and several points are averaged along the wide side [Suykens 2001, 5.1].
 #include "render/surface/texture.h"
 #include "render/surface/texture_lookup.h"
 
@@ -16,13 +15,13 @@
 
 namespace tessera {
 
-struct MipLevels::Made {
+struct MipLevels::Levels {
     std::once_flag once;
     std::vector<Bitmap> levels;
 };
 
-std::shared_ptr<MipLevels::Made> MipLevels::make() {
-    return std::make_shared<Made>();
+std::shared_ptr<MipLevels::Levels> MipLevels::make_levels() {
+    return std::make_shared<Levels>();
 }
 
 namespace {
@@ -36,15 +35,16 @@ bool has_one_colour(const Bitmap& bitmap) {
     return true;
 }
 
-/// The pixels of a row of `from` that one of `to` is the mean of: the first, and their weights, which sum to 1.
-struct Cover {
+/// Consecutive source pixels with weights that sum to 1.
+struct WeightedPixels {
     int first, count;
     float weights[4];
 };
 
-Cover cover(int i, int from, int to) {
+/// Returns the pixels of a row of `from` pixels whose mean is pixel i of a row of `to` pixels.
+WeightedPixels covered_pixels(int i, int from, int to) {
     const double scale = static_cast<double>(from) / to, begin = i * scale, end = begin + scale;
-    Cover c{static_cast<int>(begin), 0, {}};
+    WeightedPixels c{static_cast<int>(begin), 0, {}};
     for (int x = c.first; x < from && x < end - 1e-9; ++x)
         c.weights[c.count++] = static_cast<float>((std::min(end, x + 1.0) - std::max<double>(begin, x)) / scale);
     return c;
@@ -56,9 +56,9 @@ Bitmap halved(const Bitmap& bitmap) {
     half.height = std::max(bitmap.height / 2, 1);
     half.floats.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height));
     for (int y = 0; y < half.height; ++y) {
-        const Cover rows = cover(y, bitmap.height, half.height);
+        const WeightedPixels rows = covered_pixels(y, bitmap.height, half.height);
         for (int x = 0; x < half.width; ++x) {
-            const Cover columns = cover(x, bitmap.width, half.width);
+            const WeightedPixels columns = covered_pixels(x, bitmap.width, half.width);
             Rgb sum(0);
             for (int j = 0; j < rows.count; ++j)
                 for (int i = 0; i < columns.count; ++i)
@@ -70,29 +70,30 @@ Bitmap halved(const Bitmap& bitmap) {
     return half;
 }
 
-/// A footprint as points in a row, each the middle of a parallelogram of the sides `step` and `narrow`.
+/// A footprint divided into a row of parallelograms with sides `step` and `narrow`; `first` is the first centre.
 struct Row {
     int count;
     glm::vec2 first, step, narrow;
-    float width; ///< of the parallelograms, at the narrowest
+    float width; ///< smallest width of a parallelogram
 };
 
-/// @param a,b  the sides of the footprint
+/// Divides a footprint with sides a and b.
 Row row_of(glm::vec2 middle, glm::vec2 a, glm::vec2 b) {
-    constexpr float most = 16;
+    constexpr float max_count = 16;
     if (glm::dot(a, a) < glm::dot(b, b))
         std::swap(a, b);
     const float length = glm::length(a);
     const float width = std::abs(a.x * b.y - a.y * b.x) / length;
-    const float count = std::clamp(std::ceil(length / width), 1.0f, most);
+    const float count = std::clamp(std::ceil(length / width), 1.0f, max_count);
     const glm::vec2 step = a / count;
-    return {static_cast<int>(count), middle - 0.5f * (count - 1) * step, step, b, std::max(width, length / most)};
+    return {static_cast<int>(count), middle - 0.5f * (count - 1) * step, step, b,
+            std::max(width, length / max_count)};
 }
 
 Rgb filtered(const BitmapTexture& texture, glm::vec2 uv, glm::vec2 along, glm::vec2 across) {
     const Bitmap& bitmap = *texture.bitmap;
     const glm::vec2 size(bitmap.width, bitmap.height);
-    const Row row = row_of(uv, along * size, across * size); // but for its middle in pixels of the bitmap
+    const Row row = row_of(uv, along * size, across * size); // in texels, except for uv, the centre
     if (!(row.width > 1))
         return look_up(texture, uv);
     const std::vector<Bitmap>& mips = bitmap.mips.of(bitmap);
@@ -115,19 +116,19 @@ Rgb filtered(const BitmapTexture& texture, glm::vec2 uv, glm::vec2 along, glm::v
     return sum / static_cast<float>(row.count);
 }
 
-/// The mean, over an interval of that length about t, of what is 1 where t has a fraction above one half and -1
-/// elsewhere.
+/// Returns the mean over an interval centred at t of a square wave: 1 if the fractional part exceeds 1/2, else
+/// -1.
 float mean_of_steps(float t, float length) {
     const auto fraction = [](float x) { return x - std::floor(x); };
     const float from = t - 0.5f * length, to = t + 0.5f * length;
-    // Within a step, rounding must not make a black square grey.
+    // Exact within one step, where the difference of integrals would round.
     if (length < 1e-4f || std::floor(2 * from) == std::floor(2 * to))
         return fraction(t) > 0.5f ? 1.0f : -1.0f;
     const auto integral = [&](float x) { return std::abs(fraction(x) - 0.5f); };
     return (integral(to) - integral(from)) / length;
 }
 
-/// In closed form over boxes about the points of the row [as Igehy 1999].
+/// Integrates in closed form over boxes around the points of the row [Igehy 1999].
 Rgb filtered(const CheckerboardTexture& texture, glm::vec2 uv, glm::vec2 along, glm::vec2 across) {
     if (texture.color0 == texture.color1)
         return texture.color0;
@@ -138,24 +139,24 @@ Rgb filtered(const CheckerboardTexture& texture, glm::vec2 uv, glm::vec2 along, 
         const glm::vec2 point = row.first + static_cast<float>(i) * row.step;
         sum += mean_of_steps(point.x, box.x) * mean_of_steps(point.y, box.y);
     }
-    const float more = 0.5f * (1 + sum / static_cast<float>(row.count)); // the share of color0
-    return glm::mix(texture.color1, texture.color0, more);
+    const float fraction0 = 0.5f * (1 + sum / static_cast<float>(row.count));
+    return glm::mix(texture.color1, texture.color0, fraction0);
 }
 
 } // namespace
 
 const std::vector<Bitmap>& MipLevels::of(const Bitmap& bitmap) const {
-    std::call_once(made_->once, [&] {
+    std::call_once(levels_->once, [&] {
         if (has_one_colour(bitmap))
             return;
         const Bitmap* last = &bitmap;
-        made_->levels.reserve(32); // pointers into it must last
+        levels_->levels.reserve(32); // `last` points into it
         while (last->width > 1 || last->height > 1) {
-            made_->levels.push_back(halved(*last));
-            last = &made_->levels.back();
+            levels_->levels.push_back(halved(*last));
+            last = &levels_->levels.back();
         }
     });
-    return made_->levels;
+    return levels_->levels;
 }
 
 Rgb Texture::filtered(const SurfacePoint& at) const {

@@ -7,11 +7,11 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
-// Points of bitmaps, for texture.cpp and texture_filter.cpp.
+// Bitmap look-ups, for texture.cpp and texture_filter.cpp.
 
 namespace tessera {
 
-/// Brings a coordinate into [0, 1]; one that is not finite becomes 0.
+/// Wraps a coordinate into [0, 1]; returns 0 if it is not finite.
 inline float wrap(float t, Wrap mode) {
     switch (mode) {
     case Wrap::repeat:
@@ -28,7 +28,7 @@ inline float wrap(float t, Wrap mode) {
     return t >= 0 && t <= 1 ? t : 0.0f;
 }
 
-/// The pixel that stands for one just beyond the edge.
+/// Wraps a pixel index that is at most one beyond the edge.
 inline int wrap(int i, int size, Wrap mode) {
     if (i < 0)
         return mode == Wrap::repeat ? size - 1 : 0;
@@ -43,8 +43,7 @@ inline Rgb nearest(const Bitmap& bitmap, glm::vec2 uv) {
     return bitmap.texel(glm::min(x, bitmap.width - 1), glm::min(y, bitmap.height - 1));
 }
 
-/// The four pixels around uv and how far it is from the upper left one; pixels count at their centres, (i + 1/2) /
-/// size.
+/// The four pixels around uv and the offset from the upper left one; pixel centres are at (i + 1/2) / size.
 struct Corners {
     Rgb upper_left, upper_right, lower_left, lower_right;
     float right, down; // in [0, 1)

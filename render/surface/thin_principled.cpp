@@ -12,12 +12,12 @@ namespace {
 
 using namespace principled;
 
-/// What a ThinPrincipled is made of at its point, and the shares of samples for its lobes.
+/// The parameters of a ThinPrincipled at its point, and the sampling probabilities of its lobes.
 struct Sheet {
     Rgb color;
     float eta;
-    float specular;     ///< share of facets; half of their samples are reflected
-    float transmission; ///< share of what is diffuse that goes through
+    float specular;     ///< fraction of the specular lobes; half of their samples reflect
+    float transmission; ///< transmitted fraction of diffuse light
     float roughness, anisotropic;
 
     explicit Sheet(const ThinPrincipled& p)
@@ -26,7 +26,7 @@ struct Sheet {
           roughness(p.material->roughness.scalar(p.at)), anisotropic(p.material->anisotropic.scalar(p.at)) {}
 
     Microfacets reflecting() const { return facets_of(roughness, anisotropic); }
-    /// Two faces scatter less than one, as they bend light and bend it back [Burley 2015, fig. 15].
+    /// Two refractions blur less than one: the second partly reverses the first [Burley 2015, fig. 15].
     Microfacets transmitting() const { return facets_of((0.65f * eta - 0.35f) * roughness, anisotropic); }
     float diffuse(bool transmits) const { return (1 - specular) * (transmits ? transmission : 1 - transmission); }
 };
@@ -34,7 +34,7 @@ struct Sheet {
 } // namespace
 
 BsdfValue ThinPrincipled::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-    if (to_previous.z < 0) { // both sides are alike
+    if (to_previous.z < 0) { // the BSDF is symmetric
         to_previous = -to_previous;
         to_next = -to_next;
     }
@@ -56,21 +56,22 @@ BsdfValue ThinPrincipled::evaluate(glm::vec3 to_previous, glm::vec3 to_next) con
     }
     if (sheet.specular <= 0)
         return v;
-    // What goes through is what would be reflected, on the other side.
+    // Transmission is the mirror image of a reflection.
     const Microfacets facets = transmits ? sheet.transmitting() : sheet.reflecting();
     const float pdf_w = sheet.specular * facets.visible_pdf(to_previous, half) / (4 * cos_half);
     const float masking = facets.shadowing(to_next, half);
     if (!(pdf_w > 0) || !(masking > 0))
         return v;
     const float dielectric = fresnel_dielectric(cos_half, sheet.eta).reflectance;
-    Rgb share = sheet.color * (1 - dielectric);
+    Rgb factor = sheet.color * (1 - dielectric);
     if (!transmits) {
-        const float tinted = material->spec_tint.scalar(at);
-        share = Rgb((1 - tinted) * dielectric);
-        if (tinted > 0)
-            share += tinted * schlick(tint(sheet.color) * reflectance_at_normal(sheet.eta), cos_half, sheet.eta);
+        const float tint_weight = material->spec_tint.scalar(at);
+        factor = Rgb((1 - tint_weight) * dielectric);
+        if (tint_weight > 0)
+            factor +=
+                tint_weight * schlick(tint(sheet.color) * reflectance_at_normal(sheet.eta), cos_half, sheet.eta);
     }
-    v.f_cos += share * (pdf_w * masking);
+    v.f_cos += factor * (pdf_w * masking);
     v.pdf_w += 0.5f * pdf_w;
     return v;
 }
@@ -78,7 +79,7 @@ BsdfValue ThinPrincipled::evaluate(glm::vec3 to_previous, glm::vec3 to_next) con
 std::optional<BsdfSample> ThinPrincipled::sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
     const Sheet sheet(*this);
     const glm::vec3 above = to_previous.z < 0 ? -to_previous : to_previous;
-    glm::vec3 to_next; // from above, and before it is taken across
+    glm::vec3 to_next; // as if reflected from above
     bool transmits;
     if (lobe < sheet.specular) {
         transmits = lobe < 0.5f * sheet.specular;
@@ -86,13 +87,13 @@ std::optional<BsdfSample> ThinPrincipled::sample(glm::vec3 to_previous, float lo
         const glm::vec3 half = facets.sample_visible(above, u);
         to_next = reflect(above, half);
         if (transmits && !(facets.shadowing(across(to_next), half) > 0))
-            return {}; // as in Mitsuba 3, from its other side no facet is seen
+            return {}; // as in Mitsuba 3, the facet's back is not visible from there
     } else {
         transmits = lobe < sheet.specular + sheet.diffuse(true);
         to_next = sample_cosine_hemisphere(u);
     }
     if (to_next.z <= 0)
-        return {}; // other facets are in the way
+        return {}; // other facets block this direction
     if (transmits)
         to_next = across(to_next);
     if (to_previous.z < 0)

@@ -29,13 +29,13 @@ std::optional<BsdfSample> DiffuseTransmitter::sample(glm::vec3 to_previous, floa
 
 namespace {
 
-/// Share of scattered light by the cosine of the angle by which it is turned, per solid angle [Henyey 1941].
+/// Returns the phase function for the cosine of the scattering angle, per solid angle [Henyey 1941].
 float phase(float cosine, float g) {
     const float d = std::max(1 + g * g - 2 * g * cosine, 1e-8f);
     return 0.25f * inv_pi * (1 - g * g) / (d * std::sqrt(d));
 }
 
-/// A cosine with that density.
+/// Samples the cosine of the scattering angle in proportion to the phase function.
 float sample_phase(float u, float g) {
     if (std::abs(g) < 1e-3f)
         return 1 - 2 * u;
@@ -52,23 +52,22 @@ Rgb MediumLayer::unscattered(float cosine) const {
 BsdfValue MediumLayer::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
     if (to_previous.z == 0 || to_next.z == 0 || is_black(scattered * depth))
         return {};
-    // Scattered once at some depth z, with what is left on the way there and from there: an integral of
-    // exponentials over z, from 0 to the layer's depth.
+    // Integrates, over the depth z of the scattering event, the transmittances of the ways to z and from z.
     const float in = 1 / std::abs(to_next.z), out = 1 / std::abs(to_previous.z);
     const bool transmits = to_previous.z * to_next.z < 0;
     const float rate = transmits ? std::abs(in - out) : in + out;
-    const Rgb way = transmits ? glm::exp(-depth * std::min(in, out)) : Rgb(1);
+    const Rgb attenuation = transmits ? glm::exp(-depth * std::min(in, out)) : Rgb(1);
     const Rgb integral = rate < 1e-3f ? depth : (1.0f - glm::exp(-rate * depth)) / rate;
     const float p = phase(-glm::dot(to_previous, to_next), g);
-    const float straight = evaluate_delta(to_previous, Scatter::transmit).probability;
-    return {scattered * way * integral * (p * out), (1 - straight) * p};
+    const float delta_probability = evaluate_delta(to_previous, Scatter::transmit).probability;
+    return {scattered * attenuation * integral * (p * out), (1 - delta_probability) * p};
 }
 
 DeltaValue MediumLayer::evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
     if (scatter != Scatter::transmit || to_previous.z == 0 || !is_clear)
         return {};
-    const Rgb left = unscattered(to_previous.z);
-    return {-to_previous, left, (left.r + left.g + left.b) / 3};
+    const Rgb fraction = unscattered(to_previous.z);
+    return {-to_previous, fraction, (fraction.r + fraction.g + fraction.b) / 3};
 }
 
 std::optional<BsdfSample> MediumLayer::sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {

@@ -1,4 +1,4 @@
-// What sends light through to the other side without bending it.
+// BSDFs that transmit light without refraction.
 #pragma once
 
 #include "render/surface/scattering.h"
@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-/// Lambert's law for what goes through, from either side; nothing is reflected. Mitsuba 0.6's `difftrans`.
+/// Lambertian transmission from either side, without reflection; Mitsuba 0.6's `difftrans`.
 struct DiffuseTransmitter {
     Rgb transmittance{0};
 
@@ -21,23 +21,23 @@ struct DiffuseTransmitter {
     Rgb albedo(glm::vec3) const { return transmittance; }
 };
 
-/// A flat layer of a medium, in which light is scattered once or not at all [Hanrahan 1993], alike from both
-/// sides; its boundaries are not seen. Mitsuba 0.6's `hk`.
+/// A flat layer of a medium with single scattering [Hanrahan 1993], symmetric and without visible boundaries;
+/// Mitsuba 0.6's `hk`.
 struct MediumLayer {
-    Rgb scattered{0};     ///< share of the light that meets a particle that is scattered
-    Rgb depth{0};         ///< optical, straight through
-    float g = 0;          ///< mean cosine of scattering [Henyey 1941], in (-1, 1)
-    bool is_clear = true; ///< whether light that meets nothing goes on
+    Rgb scattered{0};     ///< single-scattering albedo
+    Rgb depth{0};         ///< optical thickness at normal incidence
+    float g = 0;          ///< mean cosine of the phase function [Henyey 1941], in (-1, 1)
+    bool is_clear = true; ///< whether unscattered light is transmitted
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const;
-    /// 1 where light is scattered to all sides, and less the more it goes one way.
+    /// Returns 1 for isotropic scattering, less for directional scattering, and 0 without scattering.
     float roughness() const;
     Rgb albedo(glm::vec3) const { return Rgb(1); }
 
 private:
-    /// Share of light along a direction that meets nothing.
+    /// Returns the fraction of unscattered light for a direction with this cosine.
     Rgb unscattered(float cosine) const;
 };
 

@@ -1,5 +1,4 @@
-// How the intersector's BVHs come about: shapes, groups and instances on their way into Embree, and what may go
-// wrong.
+// Builds the intersector's BVHs from shapes, groups and instances.
 
 #include "render/io/available_memory.h"
 #include "render/sampling/sampling.h"
@@ -38,43 +37,43 @@ namespace {
 
 void on_error(void* kept, RTCError code, const char* text) noexcept {
     if (code == RTC_ERROR_CANCELLED)
-        return; // by the monitor: see build()
+        return; // tell_monitor() has kept the exception
     try {
         if (code == RTC_ERROR_OUT_OF_MEMORY)
             throw OutOfMemory("there is not enough memory for the BVH");
         throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " +
                                  (text ? text : ""));
-    } catch (...) { // or there is no memory for the message
+    } catch (...) { // includes std::bad_alloc of the message
         static_cast<KeptException*>(kept)->keep(std::current_exception());
     }
 }
 
-/// Embree tells what it is about to allocate, and what it has freed.
+/// Counts Embree's memory: Embree reports each allocation before it, and each deallocation after it.
 bool count_bytes(void* sum, ssize_t bytes, bool) noexcept {
     *static_cast<std::atomic<std::ptrdiff_t>*>(sum) += bytes;
     return true;
 }
 
-/// What a monitor is told, and whether it has ended the build.
+/// A build with its monitor.
 struct BuildState {
     const BuildMonitor* monitor;
     KeptException& kept;
-    std::atomic<bool> given_up = false;
+    std::atomic<bool> cancelled = false;
 };
 
-bool tell_monitor(void* state, double share) noexcept {
+bool tell_monitor(void* state, double progress) noexcept {
     BuildState& s = *static_cast<BuildState*>(state);
     try {
-        if (!s.monitor->is_wanted(std::clamp(share, 0.0, 1.0)))
-            throw std::runtime_error("building the BVH was given up");
+        if (!s.monitor->is_wanted(std::clamp(progress, 0.0, 1.0)))
+            throw std::runtime_error("building the BVH was cancelled");
     } catch (...) {
         s.kept.keep(std::current_exception());
-        s.given_up = true;
+        s.cancelled = true;
     }
-    return !s.given_up;
+    return !s.cancelled;
 }
 
-/// Builds the BVH; `kept` has an exception if that went wrong or is wanted no more.
+/// Builds the BVH. Stores an exception in `kept` if the build fails or its monitor cancels it.
 void build(RTCScene scene, KeptException& kept) {
     BuildState state{BuildMonitor::current(), kept};
     if (state.monitor)
@@ -83,11 +82,12 @@ void build(RTCScene scene, KeptException& kept) {
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
 }
 
+/// Returns a number in [0, 1) from the high bits of a hash.
 float chance_of(std::uint64_t key) {
     return static_cast<float>(key >> 40) * 0x1p-24f;
 }
 
-/// A number in [0, 1) that depends on every bit of a ray's direction and of where it meets the surface.
+/// Returns a random number in [0, 1): a hash of a ray's direction and of its hit.
 float chance(glm::vec3 direction, glm::vec2 barycentric, unsigned shape, unsigned triangle) {
     const auto bits = [](float a, float b) {
         return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
@@ -97,14 +97,14 @@ float chance(glm::vec3 direction, glm::vec2 barycentric, unsigned shape, unsigne
     return chance_of(Random::mix(key ^ bits(barycentric.y, 0) ^ (std::uint64_t{shape} << 20) ^ triangle));
 }
 
-/// The same of a surface in an instance. There the ray has been taken into another space, with a rounding that is
-/// not alike for single rays and packets: what counts is the ray as it was.
+/// Returns the random number for a surface in an instance. It is a hash of the ray in world space, because the ray
+/// in the group's space is rounded differently for single rays and packets.
 float chance(std::uint32_t ray_number, unsigned instance, unsigned shape, unsigned triangle) {
     const std::uint64_t key = Random::mix(std::uint64_t{ray_number} << 32 | instance);
     return chance_of(Random::mix(key ^ (std::uint64_t{shape} << 32) ^ triangle));
 }
 
-/// Of the ray and hit i of those that a filter is asked about.
+/// Returns the random number for hit i of the arguments of an Embree filter.
 float chance(const RTCFilterFunctionNArguments& a, unsigned i, glm::vec2 barycentric) {
     const unsigned shape = RTCHitN_geomID(a.hit, a.N, i), triangle = RTCHitN_primID(a.hit, a.N, i);
     const unsigned instance = RTCHitN_instID(a.hit, a.N, i, 0);
@@ -115,7 +115,7 @@ float chance(const RTCFilterFunctionNArguments& a, unsigned i, glm::vec2 barycen
     return chance(direction, barycentric, shape, triangle);
 }
 
-/// Lets rays through a mask.
+/// Embree filter of masks: rejects a hit with the probability 1 - opacity.
 void filter(const RTCFilterFunctionNArguments* arguments) {
     const Mask& mask = *static_cast<const Mask*>(arguments->geometryUserPtr);
     const unsigned count = arguments->N;
@@ -130,8 +130,8 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-/// Hands a mesh's arrays to Embree, which reads 16 bytes where a position has 12: where the last one is not
-/// followed by memory of the vector's own, Embree gets a copy, which it pads.
+/// Shares a mesh's arrays with Embree. Embree reads 16 bytes for each position of 12 bytes. If the vector has no
+/// spare capacity behind its last position, Embree gets a padded copy.
 void set_buffers(RTCGeometry geometry, const Mesh& mesh) {
     if (mesh.positions.capacity() > mesh.positions.size()) {
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
@@ -139,7 +139,7 @@ void set_buffers(RTCGeometry geometry, const Mesh& mesh) {
     } else {
         auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
-        if (positions) // else Embree has told of an error
+        if (positions) // null: Embree has reported an error
             std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
     }
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
@@ -161,17 +161,15 @@ void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, Mask* mask, unsi
     rtcReleaseGeometry(geometry);
 }
 
-/// What Embree takes while it builds, which is more than what it keeps: measured on up to 4 million triangles, 105
-/// bytes for each of a smooth surface and 134 for each of a soup, of which 72 and 101 remain.
+// Upper bounds on Embree's memory during a build, which is more than the finished BVH holds; from measurements.
 constexpr std::uint64_t build_bytes_a_triangle = 136;
-
-/// The same of an instance: 370 bytes were measured.
 constexpr std::uint64_t build_bytes_an_instance = 512;
 
+/// Throws OutOfMemory if there is too little memory for the build.
 void ask_for_build(const std::vector<Shape>& shapes, const std::deque<ShapeGroup>& groups, std::size_t instances) {
     std::uint64_t triangles = 0;
-    const auto add = [&](const std::vector<Shape>& of) {
-        for (const Shape& shape : of)
+    const auto add = [&](const std::vector<Shape>& added) {
+        for (const Shape& shape : added)
             triangles += shape.mesh.triangles.size();
     };
     add(shapes);
@@ -185,7 +183,7 @@ float largest_component(glm::vec3 v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// The largest magnitudes of coordinates, x, y and z.
+/// Returns the largest magnitude of each coordinate.
 glm::vec3 extents(const std::vector<Shape>& shapes) {
     glm::vec3 largest(0);
     for (const Shape& shape : shapes)
@@ -194,25 +192,27 @@ glm::vec3 extents(const std::vector<Shape>& shapes) {
     return largest;
 }
 
-/// Of the matrix that takes normals along only the directions count: its largest element is 1, as the cofactors of
-/// something tiny are tinier still.
+/// Returns the normal matrix of a placement, scaled so that its largest element is 1. The cofactors of a small
+/// transform could underflow in later products.
 glm::mat3 placed_normals(const glm::mat4& to_world) {
     const glm::mat3 m = normal_matrix(glm::mat3(to_world));
     return m / std::max({largest_component(m[0]), largest_component(m[1]), largest_component(m[2])});
 }
 
-/// What counts for the rounding of a hit in an instance: the magnitudes of all that its coordinates are summed of.
-float extent(const Instance& instance, glm::vec3 of_group) {
+/// Returns a bound on the terms whose sum is a world coordinate of a hit in an instance. It bounds the rounding
+/// error of the hit's position.
+/// @param group_extents  extents() of the instance's group
+float extent(const Instance& instance, glm::vec3 group_extents) {
     glm::vec3 sum = glm::abs(glm::vec3(instance.to_world[3]));
     for (int axis = 0; axis < 3; ++axis)
-        sum += glm::abs(glm::vec3(instance.to_world[axis])) * of_group[axis];
+        sum += glm::abs(glm::vec3(instance.to_world[axis])) * group_extents[axis];
     return largest_component(sum);
 }
 
 } // namespace
 
 void Intersector::Impl::start() {
-    // Embree's 512-bit kernels trace single rays some 4 % slower than its 256-bit ones (measured on an EPYC).
+    // Embree traces single rays about 4 % slower with its 512-bit kernels than with its 256-bit ones.
     device = rtcNewDevice("max_isa=avx2");
     if (!device)
         throw std::runtime_error("Embree did not start");
@@ -220,7 +220,7 @@ void Intersector::Impl::start() {
     rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
 }
 
-/// Builds a scene of shapes. The first of them is number `first` among the opacities.
+/// Creates an Embree scene of shapes, without its BVH. `opacities[first]` belongs to the first shape.
 RTCScene Intersector::Impl::scene_of(const std::vector<Shape>& shapes,
                                      const std::vector<const Texture*>& opacities, std::size_t first) {
     RTCScene made = rtcNewScene(device);
@@ -234,7 +234,7 @@ RTCScene Intersector::Impl::scene_of(const std::vector<Shape>& shapes,
     return made;
 }
 
-/// Builds the groups, each on its own, and puts them into the scene as its instances say.
+/// Builds one BVH for each group, and adds all instances to the scene.
 void Intersector::Impl::add_instances(const std::deque<ShapeGroup>& shape_groups,
                                       const std::vector<Instance>& instances,
                                       const std::vector<const Texture*>& opacities) {
@@ -269,7 +269,7 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
     impl_->scene = impl_->scene_of(shapes, opacities, 0);
     impl_->first_instance = static_cast<unsigned>(shapes.size());
     impl_->add_instances(groups, instances, opacities);
-    impl_->kept.throw_kept(); // there is no building from what Embree has refused
+    impl_->kept.throw_kept(); // Embree may have refused a geometry
     build(impl_->scene, impl_->kept);
     impl_->kept.throw_kept();
     std::vector<glm::vec3> of_groups;

@@ -1,4 +1,4 @@
-// What the intersector holds of Embree, for its own files alone.
+// Embree's objects behind Intersector. Only the files of render/trace include this header.
 #pragma once
 
 #include "render/sampling/sampling.h"
@@ -23,8 +23,8 @@
 
 namespace tessera {
 
-/// The first exception of what Embree calls in the middle of its work, from any of its threads. Embree's interface
-/// is C, through which nothing may be thrown: it is kept until Embree has returned.
+/// Keeps the first exception of Embree's callbacks, which run in any of its threads, until Embree has returned. An
+/// exception must not pass through Embree's C functions.
 class KeptException {
 public:
     void keep(std::exception_ptr exception) noexcept {
@@ -43,22 +43,22 @@ private:
     std::exception_ptr first_;
 };
 
-/// A surface that not all light meets.
+/// User data of a geometry that is not opaque.
 struct Mask {
     const Mesh* mesh;
     const Texture* opacity;
 };
 
 struct Intersector::Impl {
-    std::atomic<std::ptrdiff_t> bytes = 0; // written by the threads that build
-    KeptException kept;                    // likewise
+    std::atomic<std::ptrdiff_t> bytes = 0; // memory that Embree holds; written by Embree's threads
+    KeptException kept;                    // written by Embree's threads
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::vector<std::unique_ptr<Mask>> masks; // Embree has their addresses
+    std::vector<std::unique_ptr<Mask>> masks; // Embree keeps pointers to them
     std::vector<RTCScene> groups;
-    unsigned first_instance = 0;            // the geometries before it are shapes
-    std::vector<GroupPlacement> placements; // of the instances
-    std::vector<unsigned> first_shape;      // of each instance's group, as hits count
+    unsigned first_instance = 0;            // id of the first instance; smaller ids are shapes
+    std::vector<GroupPlacement> placements; // by instance
+    std::vector<unsigned> first_shape;      // by instance: Hit::shape of the first shape of its group
 
     ~Impl() {
         for (RTCScene group : groups)
@@ -77,7 +77,8 @@ struct Intersector::Impl {
                        const std::vector<const Texture*>& opacities);
 };
 
-/// Of a ray on its way in, where there are instances: what it is told apart by in the spaces of their groups.
+/// Returns a hash of a ray in world space. With instances it is the ray's id, by which the opacity filter
+/// identifies the ray in the spaces of groups.
 inline std::uint32_t ray_number(glm::vec3 origin, glm::vec3 direction) {
     std::uint64_t key = 0;
     for (const float number : {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z})
@@ -85,7 +86,7 @@ inline std::uint32_t ray_number(glm::vec3 origin, glm::vec3 direction) {
     return static_cast<std::uint32_t>(key);
 }
 
-/// Normalises the cross product of a triangle's edges, whose square may be beyond floats.
+/// Normalises the cross product of a triangle's edges. Its square can overflow or underflow a float.
 inline glm::vec3 unit(glm::vec3 n) {
     const float square = glm::dot(n, n);
     if (square > 1e-30f && square < 1e30f)

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int packet_size = 8;
 
-/// Embree loses its footing far before floats end.
+/// Limit on coordinates of rays: Embree fails far below the largest float.
 constexpr float farthest = 1e18f;
 
 bool is_sound(glm::vec3 v) {
-    // A NaN fails every comparison.
+    // All comparisons with NaN are false.
     return (std::abs(v.x) < farthest) & (std::abs(v.y) < farthest) & (std::abs(v.z) < farthest);
 }
 
@@ -38,7 +38,7 @@ RTCRay make_ray(glm::vec3 origin, glm::vec3 direction, float tfar) {
     return ray;
 }
 
-/// What is alike in all packets of stretches.
+/// Returns a packet with the fields that are equal for all segments.
 RTCRay8 empty_packet() {
     RTCRay8 packet;
     for (int lane = 0; lane < packet_size; ++lane) {
@@ -51,7 +51,7 @@ RTCRay8 empty_packet() {
     return packet;
 }
 
-/// Puts segment m into a lane of the packet. False: it is not fit to be traced.
+/// Puts segment m into a lane of the packet. Returns false if the segment is not finite.
 bool set_ray(RTCRay8& packet, int lane, const SegmentLanes& s, int m) {
     packet.org_x[lane] = s.from.x[m];
     packet.org_y[lane] = s.from.y[m];
@@ -59,11 +59,11 @@ bool set_ray(RTCRay8& packet, int lane, const SegmentLanes& s, int m) {
     packet.dir_x[lane] = s.to.x[m] - s.from.x[m];
     packet.dir_y[lane] = s.to.y[m] - s.from.y[m];
     packet.dir_z[lane] = s.to.z[m] - s.from.z[m];
-    packet.tfar[lane] = 1; // Embree marks what is blocked here
+    packet.tfar[lane] = 1; // Embree sets it to -infinity if the segment is occluded
     return is_sound(s.from[m]) & is_sound(s.to[m]);
 }
 
-// The two versions of Embree differ in how a query is told its wishes.
+// Embree 3 and 4 pass the options of a query in different ways.
 #if TESSERA_EMBREE_MAJOR >= 4
 void intersect(RTCScene scene, RTCRayHit& ray) {
     rtcIntersect1(scene, &ray, nullptr);

@@ -20,103 +20,101 @@
 
 namespace tessera {
 
-/// Tells a watch of the BVHs that the calling thread builds while this lives: whoever loads a scene is far from
-/// where its BVH is built, and is the only one to watch.
+/// Reports the progress of the BVHs that the calling thread builds during the monitor's lifetime. It is found
+/// through the thread, because many layers lie between loading a scene and building its BVH.
 class BuildMonitor {
 public:
-    /// It is told the share of a BVH that is done, [0, 1], by any of the threads that build it, several at once,
-    /// and says whether to go on. False: the BVH is wanted no more, and its constructor throws std::runtime_error.
-    using Watch = std::function<bool(double share)>;
+    /// Receives the progress of a BVH, in [0, 1], from any of the building threads, also from several at once.
+    /// Returns whether to continue; after false, the constructor of Intersector throws std::runtime_error.
+    using Watch = std::function<bool(double progress)>;
 
     explicit BuildMonitor(Watch watch);
     ~BuildMonitor();
     BuildMonitor(const BuildMonitor&) = delete;
     BuildMonitor& operator=(const BuildMonitor&) = delete;
 
-    /// The calling thread's newest monitor; null: it has none.
+    /// Returns the calling thread's newest monitor, or null.
     static const BuildMonitor* current();
-    bool is_wanted(double share) const { return watch_(share); }
+    bool is_wanted(double progress) const { return watch_(progress); }
 
 private:
     Watch watch_;
-    const BuildMonitor* outer_;
+    const BuildMonitor* outer_; // the thread's newest monitor before this one
 };
 
 struct Texture;
 
-/// Where an instance's group of shapes stands.
+/// Transform of an instance from its group's space to the world.
 struct GroupPlacement {
     glm::mat4 to_world;
-    glm::mat3 of_normals; ///< normal_matrix of to_world, times some number
+    glm::mat3 of_normals; ///< normal_matrix of to_world, up to a positive factor
 
     glm::vec3 point(glm::vec3 p) const { return glm::vec3(to_world * glm::vec4(p, 1)); }
     glm::vec3 vector(glm::vec3 v) const { return glm::mat3(to_world) * v; }
-    /// Which side of the surface something in the group's space is on, by a normal of the scene: > 0, its own.
+    /// Returns a positive number if a direction in the group's space lies on the side of `world_normal`.
     float side(glm::vec3 in_group, glm::vec3 world_normal) const {
         return glm::dot(vector(in_group), world_normal);
     }
 };
 
 struct Hit {
-    std::uint32_t shape; ///< those of the groups count on, group by group, where the scene's own end
+    std::uint32_t shape; ///< index: first the scene's own shapes, then those of each group
     std::uint32_t triangle;
-    glm::vec2 barycentric; ///< weights of the second and third corner
-    float distance;        ///< along the unit direction of the ray
-    glm::vec3
-        geometric_normal; ///< unit, on the side from which the corners run counter-clockwise before placement
-    const GroupPlacement* placement; ///< of the shape's mesh; null: it is in the space of the scene
+    glm::vec2 barycentric;      ///< weights of the second and third corner
+    float distance;             ///< from the ray's origin, in scene units
+    glm::vec3 geometric_normal; ///< unit; points to the side that sees the corners counter-clockwise in mesh space
+    const GroupPlacement* placement; ///< of the instance that was hit; null: the mesh is in world space
 };
 
-/// A stretch of space that light must cross: open at both ends.
+/// A segment that is tested for occlusion, without its end points.
 struct Segment {
     glm::vec3 from;
     glm::vec3 to;
 };
 
-/// The only place that knows Embree. A surface that is not opaque is there for one ray and not for another, by
-/// chance in proportion to its opacity; the chance is a function of the ray, so that the same ray sees the same.
-/// Every ray is checked on its way in: one that is not finite hits nothing (the Embree of Debian would end the
-/// process).
+/// Intersects rays with a scene. Only this class uses Embree. A ray hits a surface with the probability of its
+/// opacity. The random number is a hash of the ray, so equal rays have equal hits. Rays that are not finite are
+/// rejected, because some builds of Embree abort the process on them.
 class Intersector {
 public:
     Intersector();
-    /// @param opacities  one a shape, those of groups after the others: the share of light (luminance) that meets
-    ///                   it; null: all does. May be empty: all shapes are opaque.
-    ///
-    /// Meshes and textures must stay where they are for as long as this lives. Throws std::runtime_error with
-    /// what Embree says where it fails, OutOfMemory where the BVH cannot be had.
+    /// Builds the BVHs. Keeps pointers to meshes and textures. Throws std::runtime_error with Embree's message, or
+    /// OutOfMemory if the BVH does not fit.
+    /// @param opacities  by Hit::shape: the opacity (luminance) of the shape; null: opaque. Empty: all shapes are
+    ///                   opaque.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {},
                          const std::deque<ShapeGroup>& groups = {}, const std::vector<Instance>& instances = {});
     ~Intersector();
     Intersector(Intersector&&) noexcept;
     Intersector& operator=(Intersector&&) noexcept;
 
-    /// Makes `hit` the first triangle on the ray, beyond its origin. False: there is none.
+    /// Finds the first triangle on the ray and stores it in `hit`. Returns false, and leaves `hit` unchanged, if
+    /// there is none or the ray is not finite.
     bool closest(const Ray& ray, Hit& hit) const;
 
-    /// Whether anything stands between the ends of the segment.
+    /// Returns whether a surface intersects the segment. A segment that is not finite counts as occluded.
     bool occluded(const Segment& segment) const;
 
-    /// What Embree holds: the BVH and its own copy of the triangles.
+    /// Returns the bytes that Embree holds for BVHs and copies of triangles.
     std::size_t bytes() const;
 
-    /// A point moved off its surface by some hundred units in the last place, toward the side of `direction`: the
-    /// end of a ray that must not meet the surface itself (after [Waechter and Binder, Ray Tracing Gems, ch. 6],
-    /// with steps in proportion to the scene, so that its units do not matter). A hit's position has an error of
-    /// some units in the last place of the ray's origin and length, also where the coordinate itself is near zero.
+    /// Moves a point off its surface toward the side of `direction`, by some hundred units in the last place, so
+    /// that a ray from there does not hit the surface [after Waechter and Binder, Ray Tracing Gems, ch. 6]. The
+    /// step of a coordinate near zero is relative to the scene's size, because the error of a hit's position is
+    /// some units in the last place of the ray's origin and length.
     glm::vec3 off_surface(glm::vec3 position, glm::vec3 geometric_normal, glm::vec3 direction) const {
         const float step = std::copysign(1.0f / 65536, glm::dot(geometric_normal, direction));
         return position + step * geometric_normal * glm::max(glm::abs(position), smallest_coordinate_);
     }
 
-    /// Does as the other occluded() does for `count` segments that share one end or nearly so, in packets. Only
-    /// lanes that are asked for are traced; the others are not blocked.
+    /// Tests `count` segments in packets, which is fast if they are coherent. Tests only the lanes that `asked`
+    /// selects; the others are set to "not blocked".
     void occluded(const SegmentLanes& segments, const LaneMask& asked, int count, LaneMask& blocked) const;
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
-    float smallest_coordinate_ = 0; // what a step off a surface takes a coordinate for at least
+    float smallest_coordinate_ = 0; // lower bound on |coordinate| in off_surface()
 };
 
 } // namespace tessera

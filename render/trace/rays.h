@@ -1,4 +1,4 @@
-// Rays and segments, one at a time and side by side in lanes.
+// Rays and segments, and arrays of them with one lane per pixel.
 #pragma once
 
 #include <array>
@@ -13,10 +13,12 @@ struct Ray {
     glm::vec3 direction; ///< unit
 };
 
-/// Numbers side by side, one a pixel of a sampling set, for loops that the compiler turns into vector code. Loops
-/// run over whole vectors, to padded(count): what lies in the lanes beyond is never read for a result.
+// Lane arrays have one lane per pixel of a sampling set, for loops that the compiler vectorises. Loops run over
+// whole vectors, up to padded(count). No result depends on the lanes from `count` on.
+
 inline constexpr int lanes_a_vector = 8;
-/// As many as the largest sampling set has pixels, and more (render/estimator/path_reuse.cpp sees to it).
+/// Capacity of lane arrays: at least the pixels of the largest sampling set (checked in
+/// render/estimator/path_reuse.cpp).
 inline constexpr int most_lanes = 37 * lanes_a_vector;
 
 inline int padded(int lanes) {
@@ -32,7 +34,7 @@ struct alignas(64) LaneArray {
 };
 
 using FloatLanes = LaneArray<float>;
-using LaneMask = LaneArray<std::int32_t>; ///< -1: yes, 0: no
+using LaneMask = LaneArray<std::int32_t>; ///< -1: true, 0: false
 
 struct Vec3Lanes {
     FloatLanes x, y, z;
@@ -45,7 +47,7 @@ struct Vec3Lanes {
     }
 };
 
-/// Stretches of space that light must cross, open at both ends.
+/// Segments that are tested for occlusion, without their end points.
 struct SegmentLanes {
     Vec3Lanes from, to;
 };

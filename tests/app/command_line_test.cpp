@@ -201,7 +201,7 @@ TEST_F(CommandLine, LightThatIsTooStrongIsCut) {
     const Outcome o =
         run(folder_, "render bright.xml --size 32x18 --spp 2 --recon l2,l1,mixed,weighted -o out.exr");
     EXPECT_EQ(o.exit_code, 0) << o.output;
-    EXPECT_NE(o.output.find("'radiance' is cut at 1e15"), std::string::npos) << o.output;
+    EXPECT_NE(o.output.find("'radiance' is clamped to 1e15"), std::string::npos) << o.output;
     for (const ExrLayer& layer : read_exr(folder_ / "out.exr").layers)
         for (const Rgb& pixel : layer.image)
             ASSERT_TRUE(std::isfinite(pixel.r + pixel.g + pixel.b)) << layer.name;
@@ -335,7 +335,7 @@ TEST_F(CommandLine, InfoTellsWhatIsThere) {
           "memory", "MB BVH", "delta lobes      1 material\n", "transmission     1 material\n",
           "glossy below 0.1 none\n", "relief           none\n", "masks            none\n",
           "environment      none\n",
-          "odd.xml:2:1: the bsdf 'velvet' is not known; diffuse magenta stands for it (also at 3:1)\n"})
+          "odd.xml:2:1: the bsdf 'velvet' is not known; diffuse magenta is used instead (also at 3:1)\n"})
         EXPECT_NE(o.output.find(word), std::string::npos) << word << "\n" << o.output;
     EXPECT_EQ(run(folder_, "info box.xml").output.find("\x1b"), std::string::npos) << "a bar where no terminal is";
 }
@@ -373,9 +373,9 @@ TEST_F(CommandLine, BadCameraFilesGetAMessageAndExitCode2) {
         {"[]", "c.json:1:1: a camera file holds one object"},
         {"{\"fov\": 40}", "c.json:1:1: the camera has no 'to_world'"},
         {"{" + unit + "}", "c.json:1:1: the camera has no 'fov'"},
-        {"{" + unit + ",\n \"fov\": \"wide\"}", "c.json:2:9: 'fov' must be made of numbers, not of string"},
+        {"{" + unit + ",\n \"fov\": \"wide\"}", "c.json:2:9: 'fov' must be numeric, not string"},
         {"{" + unit + ",\n \"fov\": 180}", "c.json:2:9: the field of view must be between 0 and 180 degrees"},
-        {"{" + unit + ",\n \"fov\": 40, \"zoom\": 2}", "c.json:2:21: a camera has no field 'zoom'"},
+        {"{" + unit + ",\n \"fov\": 40, \"zoom\": 2}", "c.json:2:21: unknown camera field 'zoom'"},
         {"{\"fov\": 40, \"to_world\": [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1]}", "the camera's transform is flat"},
     };
     for (const auto& [json, expected] : cases) {

@@ -117,8 +117,8 @@ TEST_F(BrokenFile, EmptyAndForeign) {
     EXPECT_NE(error_of_shape("serialized", "empty").find("the file ends too early"), std::string::npos);
     EXPECT_NE(error_of_shape("ply", "foreign").find("does not begin with 'ply'"), std::string::npos);
     EXPECT_NE(error_of_shape("serialized", "foreign").find("not a file of serialized"), std::string::npos);
-    EXPECT_NE(error_of_texture("empty").find("it is no OpenEXR"), std::string::npos);
-    EXPECT_NE(error_of_texture("foreign").find("it is no OpenEXR"), std::string::npos);
+    EXPECT_NE(error_of_texture("empty").find("it is not an OpenEXR"), std::string::npos);
+    EXPECT_NE(error_of_texture("foreign").find("it is not an OpenEXR"), std::string::npos);
     // OBJ has no mark at its beginning, and any line may be a word of some dialect.
     EXPECT_EQ(error_of_shape("obj", "empty"), "no error");
 }
@@ -164,7 +164,7 @@ TEST_F(BrokenFile, ThePictureDecidesNotItsName) {
     for (const char* name : {"a.pic", "a.png", "a.hdr"}) {
         folder.write(name, softimage);
         EXPECT_THAT(error_of_texture(name),
-                    testing::HasSubstr("it is no OpenEXR, Radiance, PNG, JPEG, BMP or TGA"));
+                    testing::HasSubstr("it is not an OpenEXR, Radiance, PNG, JPEG, BMP or TGA"));
     }
 }
 
@@ -196,7 +196,7 @@ TEST_F(BrokenFile, AbsurdImages) {
         folder.write(file, bytes);
         EXPECT_NE(error_of_texture(file).find(message), std::string::npos) << error_of_texture(file);
     };
-    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': it is no readable picture");
+    expect("a.png", png_header(1000000, 1000000), "cannot load 'a.png': the picture cannot be read");
     expect("b.png", png_header(17000, 17000), "an image of 17000 by 17000 pixels is too large");
     expect("c.png", png_header(16000, 16000), "the file is too short for 16000 by 16000 pixels");
     expect("a.exr", exr_header(1000000, 1000000), "cannot load 'a.exr'");
@@ -210,10 +210,10 @@ TEST_F(BrokenFile, AbsurdImages) {
 TEST_F(BrokenFile, ABillionFaces) {
     const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
     folder.write("faces.ply", ply(three, 3, "3 0 1 2\n", 1000000000));
-    EXPECT_NE(error_of_shape("ply", "faces.ply").find("the header promises 1000000000 rows of 'face'"),
+    EXPECT_NE(error_of_shape("ply", "faces.ply").find("the header declares 1000000000 rows of 'face'"),
               std::string::npos);
     folder.write("vertices.ply", ply(three, 1000000000, "3 0 1 2\n", 1));
-    EXPECT_NE(error_of_shape("ply", "vertices.ply").find("the header promises 1000000000 rows of 'vertex'"),
+    EXPECT_NE(error_of_shape("ply", "vertices.ply").find("the header declares 1000000000 rows of 'vertex'"),
               std::string::npos);
     std::string list = ply(three, 3, "", 1);
     list.replace(list.find("list uchar"), 10, "list uint");
@@ -266,7 +266,7 @@ TEST_F(BrokenFile, TwoListsOfVertices) {
                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                  "property float z\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
                  "end_header\n0 0 0\n1 1 1\n");
-    EXPECT_NE(error_of_shape("ply", "m.ply").find("vertex 0: a second list of vertices is one too many"),
+    EXPECT_NE(error_of_shape("ply", "m.ply").find("vertex 0: there is a second list of vertices"),
               std::string::npos);
 }
 

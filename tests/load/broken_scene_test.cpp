@@ -30,7 +30,7 @@ constexpr Broken broken_scenes[] = {
     {"ref without id", "<shape type='cube'><ref/></shape>", "2:20: <ref> needs the attribute 'id'"},
     {"alias of nothing", "<alias id='x' as='y'/>", "2:12: nothing in the file has the id 'x'"},
     {"id twice", "<bsdf type='diffuse' id='a'/>\n<shape type='cube' id='a'/>",
-     "3:24: the id 'a' is already that of the <bsdf> at b.xml:2:1"},
+     "3:24: the id 'a' is already used by the <bsdf> at b.xml:2:1"},
     {"circle of references", "<bsdf type='twosided' id='a'><ref id='a'/></bsdf>",
      "2:1: nested too deep: is this a circle of references?"},
     {"not a number", "<bsdf type='roughconductor'><float name='alpha' value='0.1x'/></bsdf>",
@@ -76,7 +76,7 @@ constexpr Broken broken_scenes[] = {
     {"short matrix", "<shape type='cube'><transform name='to_world'><matrix value='1 0 0'/></transform></shape>",
      "2:62: a matrix has 16 numbers, or 9; here are 3"},
     {"unknown step", "<shape type='cube'><transform name='to_world'><twist x='1'/></transform></shape>",
-     "2:47: <twist> is no step of a transform"},
+     "2:47: <twist> is not a step of a transform"},
     {"rotation about nothing",
      "<shape type='cube'><transform name='to_world'><rotate angle='1'/></transform></shape>",
      "2:47: a rotation needs an axis"},
@@ -90,7 +90,7 @@ constexpr Broken broken_scenes[] = {
      "2:53: the field of view must be between 0 and 180 degrees"},
     {"axis",
      "<sensor type='perspective'><float name='fov' value='9'/><string name='fov_axis' value='w'/></sensor>",
-     "2:88: 'w' is no axis: x, y, diagonal, smaller or larger"},
+     "2:88: 'w' is not an axis (x, y, diagonal, smaller or larger)"},
     {"lens without a radius", "<sensor type='thinlens'/>",
      "2:1: the sensor 'thinlens' needs an 'aperture_radius'"},
     {"negative radius", "<sensor type='thinlens'><float name='aperture_radius' value='-1'/></sensor>",
@@ -112,11 +112,11 @@ constexpr Broken broken_scenes[] = {
      "<bsdf type='diffuse'><texture name='reflectance' type='rawconstant'/></bsdf>",
      "2:22: 'rawconstant' needs a 'value'"},
     {"attribute without a name", "<bsdf type='diffuse'><texture name='reflectance' type='mesh_attribute'/></bsdf>",
-     "2:22: 'mesh_attribute' needs the 'name' of one"},
+     "2:22: 'mesh_attribute' needs a 'name'"},
     {"attribute of nothing",
      "<bsdf type='diffuse'><texture name='reflectance' type='mesh_attribute'>\n<string name='name' value='color'/>"
      "</texture></bsdf>",
-     "3:28: 'color' is no attribute: its name begins with 'vertex_' or 'face_'"},
+     "3:28: 'color' is not an attribute: its name must begin with 'vertex_' or 'face_'"},
     {"blackbody without temperature",
      "<shape type='cube'><emitter type='area'><blackbody name='radiance'/></emitter></shape>",
      "2:41: <blackbody> needs the attribute 'temperature'"},
@@ -292,7 +292,7 @@ TEST(BrokenScenes, Files) {
     expect(shape("obj", "far.obj"), "2:50: cannot load 'far.obj': the position of vertex 0 is not finite");
     expect(folder.write("s.xml", scene_with("<bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
                                             "<string name='filename' value='no-image.png'/></texture></bsdf>")),
-           "2:95: cannot load 'no-image.png': it is no OpenEXR");
+           "2:95: cannot load 'no-image.png': it is not an OpenEXR");
 }
 
 TEST(BrokenScenes, TheFirstOfSeveralIsReported) {

@@ -56,7 +56,7 @@ TEST(BrokenText, Latin1IsConverted) {
     const LoadedScene loaded = parse_mitsuba_xml(text, "b.xml");
     EXPECT_EQ(loaded.description.materials.at(0).name, "Gr\xc3\xbcn");
     ASSERT_EQ(loaded.notes.size(), 1u);
-    EXPECT_EQ(loaded.notes[0].text, "the file is not in UTF-8 and taken for Latin-1");
+    EXPECT_EQ(loaded.notes[0].text, "the file is not UTF-8; it is read as Latin-1");
     text.replace(text.find("Gr\xfcn"), 4, "Gr\xc3\xbcn");
     EXPECT_EQ(parse_mitsuba_xml(text, "b.xml").notes.size(), 0u);
 }

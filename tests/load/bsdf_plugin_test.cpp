@@ -46,7 +46,7 @@ TEST(BsdfPlugins, Relief) {
     EXPECT_EQ(normals.material.relief->kind, Relief::Kind::normal_map);
     EXPECT_TRUE(normals.material.two_sided);
     const Read both = read(around("normalmap", check + around("bumpmap", check + diffuse)));
-    EXPECT_EQ(both.notes, "the relief inside this one is left out\n");
+    EXPECT_EQ(both.notes, "the bump or normal map inside this one is left out\n");
     EXPECT_EQ(both.material.relief->kind, Relief::Kind::normal_map);
     // All adapters at once may stand in any order.
     const Read all = read(around("twosided", around("mask", around("bumpmap", check + diffuse))));
@@ -130,10 +130,10 @@ TEST(BsdfPlugins, WhatABlendDropsHasItsNote) {
         around("blendbsdf", around("mask", diffuse) + around("twosided", around("bumpmap", check + diffuse))));
     EXPECT_EQ(r.notes, "'twosided' around some of the materials in 'blendbsdf' is left out\n"
                        "the mask inside 'blendbsdf' is left out\n"
-                       "the relief inside 'blendbsdf' is left out\n");
+                       "the bump or normal map inside 'blendbsdf' is left out\n");
     EXPECT_FALSE(r.material.two_sided);
     EXPECT_EQ(read(around("twosided", around("blendbsdf", diffuse + glass))).notes,
-              "'twosided' means nothing around a transparent material\n");
+              "'twosided' has no effect on a transparent material\n");
     // Around the whole they work.
     EXPECT_TRUE(read(around("mask", around("blendbsdf", two_sided + two_sided))).material.opacity);
 
@@ -152,7 +152,7 @@ TEST(BsdfPlugins, Mixture) {
     EXPECT_EQ(mixture.weights, (std::vector<float>{0.3f, 0.2f}));
     EXPECT_EQ(r.notes, "");
     const Read heavy = read(around("mixturebsdf", "<string name='weights' value='3 1'/>" + diffuse + diffuse));
-    EXPECT_EQ(heavy.notes, "'weights' are above 1 together and scaled down to it\n");
+    EXPECT_EQ(heavy.notes, "'weights' add up to more than 1 and are scaled down to 1\n");
     EXPECT_FLOAT_EQ(std::get<MixtureMaterial>(heavy.material.kind).weights[0], 0.75f);
 }
 
@@ -251,7 +251,7 @@ TEST(BsdfPlugins, BadValues) {
 
 TEST(BsdfPlugins, UnknownOnesAreMarked) {
     const Read r = read("<bsdf type='irawan'/>");
-    EXPECT_EQ(r.notes, "the bsdf 'irawan' is not known; diffuse magenta stands for it\n");
+    EXPECT_EQ(r.notes, "the bsdf 'irawan' is not known; diffuse magenta is used instead\n");
 }
 
 } // namespace tessera::test

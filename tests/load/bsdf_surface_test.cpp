@@ -42,7 +42,7 @@ TEST(BsdfPlugins, RoughDielectric) {
                            "<float name='ext_ior' value='1'/></bsdf>");
     EXPECT_TRUE(std::holds_alternative<SmoothDielectric>(none.material.resolve({}).kind));
     EXPECT_EQ(read(around("twosided", "<bsdf type='roughdielectric'/>")).notes,
-              "'twosided' means nothing around a transparent material\n");
+              "'twosided' has no effect on a transparent material\n");
 }
 
 TEST(BsdfPlugins, AnisotropicRoughness) {
@@ -87,7 +87,7 @@ TEST(BsdfPlugins, Principled) {
     EXPECT_LT(clear.material.resolve({}).roughness(), 0.3f); // of facets
     EXPECT_EQ(kind_name(clear.material.resolve({})), "principled");
     EXPECT_EQ(read(around("twosided", "<bsdf type='principledthin'/>")).notes,
-              "'twosided' means nothing around a transparent material\n");
+              "'twosided' has no effect on a transparent material\n");
     const Read bright = read("<bsdf type='principled'><float name='sheen' value='2'/></bsdf>");
     EXPECT_EQ(std::get<PrincipledMaterial>(bright.material.kind).sheen.scalar({}), 1);
     EXPECT_NE(bright.notes, "");
@@ -105,7 +105,7 @@ TEST(BsdfPlugins, Phong) {
     EXPECT_EQ(bsdf.roughness(), 1);
     const Read bright = read("<bsdf type='phong'><rgb name='diffuseReflectance' value='0.9'/>"
                              "<rgb name='specularReflectance' value='0.6'/></bsdf>");
-    EXPECT_EQ(bright.notes, "the two reflectances are above 1 together and scaled down to it\n");
+    EXPECT_EQ(bright.notes, "the two reflectances add up to more than 1 and are scaled down to 1\n");
     const Bsdf scaled = bright.material.resolve({});
     EXPECT_FLOAT_EQ(std::get<Phong>(scaled.kind).diffuse_reflectance.r, 0.6f);
 }
@@ -125,7 +125,7 @@ TEST(BsdfPlugins, Ward) {
     EXPECT_FLOAT_EQ(bsdf.roughness(), 0.1f);
     EXPECT_EQ(kind_name(bsdf), "ward");
     EXPECT_EQ(read("<bsdf type='ward'><float name='specular_reflectance' value='0.9'/></bsdf>").notes,
-              "the two reflectances are above 1 together and scaled down to it\n");
+              "the two reflectances add up to more than 1 and are scaled down to 1\n");
 }
 
 TEST(BsdfPlugins, DiffuseTransmitter) {
@@ -161,7 +161,7 @@ TEST(BsdfPlugins, MediumLayer) {
               "the phase function 'rayleigh' is replaced by an isotropic one\n");
     // Light has one direction beyond glass.
     const Read both = read(around("blendbsdf", "<bsdf type='hk'/>" + glass));
-    EXPECT_EQ(both.notes, "the light that 'hk' lets through unscattered is left out beside that bent by glass\n");
+    EXPECT_EQ(both.notes, "the unscattered transmission of 'hk' is left out, because another <bsdf> refracts\n");
     EXPECT_FALSE(part<MediumLayerMaterial>(both.material, 0).is_clear);
     EXPECT_EQ(read(around("blendbsdf", "<bsdf type='hk'/>" + diffuse)).notes, "");
 }

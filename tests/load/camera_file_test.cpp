@@ -36,21 +36,21 @@ constexpr Broken broken_cameras[] = {
     {"nothing in it", "{}", ":1:1: the camera has no 'to_world'"},
     {"no fov", "{\"to_world\": [M]}", ":1:1: the camera has no 'fov'"},
     {"no matrix", "{\"fov\": 40}", ":1:1: the camera has no 'to_world'"},
-    {"unknown field", "{\"fov\": 40,\n \"tow_orld\": [M]}", ":2:14: a camera has no field 'tow_orld'"},
+    {"unknown field", "{\"fov\": 40,\n \"tow_orld\": [M]}", ":2:14: unknown camera field 'tow_orld'"},
     {"a number for a matrix", "{\"to_world\": 1, \"fov\": 40}",
-     ":1:14: 'to_world' must be 16 numbers, not number"},
-    {"short matrix", "{\"to_world\": [1, 0, 0], \"fov\": 40}", ":1:14: 'to_world' must be 16 numbers; here are 3"},
+     ":1:14: 'to_world' must be a list of 16 numbers, not number"},
+    {"short matrix", "{\"to_world\": [1, 0, 0], \"fov\": 40}", ":1:14: 'to_world' must have 16 numbers, not 3"},
     {"nested matrix", "{\"to_world\": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], \"fov\": 40}",
-     ":1:14: 'to_world' must be 16 numbers; here are 4"},
+     ":1:14: 'to_world' must have 16 numbers, not 4"},
     {"words in a matrix", "{\"to_world\": [\"1\",0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
-     ":1:14: 'to_world' must be made of numbers, not of string"},
+     ":1:14: 'to_world' must be numeric, not string"},
     {"null in a matrix", "{\"to_world\": [null,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
-     ":1:14: 'to_world' must be made of numbers, not of null"},
+     ":1:14: 'to_world' must be numeric, not null"},
     {"beyond floats", "{\"to_world\": [1e39,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
      ":1:14: 'to_world' has a number that is too large"},
     {"beyond doubles", "{\"to_world\": [M],\n \"fov\": 1e999}", ":2:9: the number 1e999 is too large"},
     {"column by column", "{\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 3,4,5,1], \"fov\": 40}",
-     ":1:14: the last four numbers of 'to_world' must be 0, 0, 0, 1: it is row by row"},
+     ":1:14: the last four numbers of 'to_world' must be 0, 0, 0, 1 (the matrix is row by row)"},
     {"singular", "{\"to_world\": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
      ":1:14: the camera's transform is flat"},
     {"nearly singular", "{\"to_world\": [0.1,0.2,0.3,0, 0.3,0.6,0.9,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
@@ -60,7 +60,7 @@ constexpr Broken broken_cameras[] = {
     {"no angle", "{\"to_world\": [M],\n \"fov\": 0}", ":2:9: the field of view must be between 0 and 180 degrees"},
     {"too wide", "{\"to_world\": [M],\n \"fov\": 180}",
      ":2:9: the field of view must be between 0 and 180 degrees"},
-    {"fov in words", "{\"to_world\": [M], \"fov\": \"40\"}", "'fov' must be made of numbers, not of string"},
+    {"fov in words", "{\"to_world\": [M], \"fov\": \"40\"}", "'fov' must be numeric, not string"},
     {"unknown axis", "{\"to_world\": [M], \"fov\": 40,\n\"fov_axis\": \"z\"}",
      ":2:13: 'fov_axis' must be \"x\", \"y\""},
     {"a field's name before it", "{\"up\": \"fov\", \"to_world\": [M],\n \"fov\": 0}",
@@ -70,7 +70,7 @@ constexpr Broken broken_cameras[] = {
     {"half an offset", "{\"to_world\": [M], \"fov\": 40,\n\"principal_point_offset\": [1]}",
      ":2:27: 'principal_point_offset' must be 2 numbers"},
     {"offset in words", "{\"to_world\": [M], \"fov\": 40,\n\"principal_point_offset\": [1, \"2\"]}",
-     ":2:27: 'principal_point_offset' must be made of numbers, not of string"},
+     ":2:27: 'principal_point_offset' must be numeric, not string"},
     {"negative aperture", "{\"to_world\": [M], \"fov\": 40,\n\"aperture_radius\": -1, \"focus_distance\": 1}",
      ":2:20: 'aperture_radius' must not be negative"},
     {"lens without focus", "{\"to_world\": [M], \"fov\": 40, \"aperture_radius\": 1}",
@@ -177,7 +177,7 @@ TEST(CameraFile, AxisIsXIfItIsNotNamed) {
 
 /// The type of sensor that the text says it belongs to.
 std::string sensor_type(const std::string& xml) {
-    const std::string words = "<!-- of a sensor of the type ";
+    const std::string words = "<!-- for a sensor of type ";
     if (xml.rfind(words, 0) != 0)
         return "perspective";
     return xml.substr(words.size(), xml.find(" -->") - words.size());

@@ -141,7 +141,7 @@ TEST(Colors, AttributesOfMeshes) {
                                      "type='mesh_attribute'><string name='name' value='face_x'/></texture></bsdf>"
                                      "</shape>");
     ASSERT_FALSE(loaded.notes.empty());
-    EXPECT_EQ(loaded.notes.back().text, "the shape has no attribute 'face_x'; white stands for it");
+    EXPECT_EQ(loaded.notes.back().text, "the shape has no attribute 'face_x'; white is used instead");
 }
 
 TEST(Colors, OfPlyFiles) {

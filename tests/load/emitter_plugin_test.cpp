@@ -79,7 +79,8 @@ TEST(EmitterPlugins, SpotWithATexture) {
     const LoadedScene wide = load("<emitter type='spot'><float name='cutoff_angle' value='95'/>"
                                   "<texture type='checkerboard' name='texture'/></emitter>");
     ASSERT_EQ(wide.notes.size(), 1u);
-    EXPECT_THAT(wide.notes[0].text, testing::HasSubstr("the texture is not used: a cone of 90 degrees"));
+    EXPECT_THAT(wide.notes[0].text,
+                testing::HasSubstr("the texture is not used: it needs a 'cutoff_angle' below 90 degrees"));
     EXPECT_FALSE(wide.description.point_lights.at(0).slide);
 }
 
@@ -182,7 +183,7 @@ TEST(EmitterPlugins, ScalesOfPicturesAreCutAsLightIs) {
     const LoadedScene loaded = load("<emitter type='projector'><float name='scale' value='1e20'/></emitter>");
     EXPECT_EQ(loaded.description.point_lights.at(0).intensity, Rgb(1e15f));
     ASSERT_EQ(loaded.notes.size(), 1u);
-    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'scale' is cut at 1e15"));
+    EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'scale' is clamped to 1e15"));
 }
 
 TEST(EmitterPlugins, UnknownOnesAreMissingLight) {

@@ -131,7 +131,7 @@ TEST_F(Include, DepthAndNumberAreLimited) {
 
 TEST_F(Include, WhatIsNoFile) {
     expect_error("<include/>", path("a.xml") + ":2:1: <include> needs the attribute 'filename'");
-    expect_error("<include filename=''/>", path("a.xml") + ":2:20: '' is no name of a file");
+    expect_error("<include filename=''/>", path("a.xml") + ":2:20: '' is not a file name");
     expect_error("<include filename='none.xml'/>",
                  path("a.xml") + ":2:20: there is no file '" + path("none.xml") + "'");
     expect_error("<include filename='.'/>", path("a.xml") + ":2:20: '" + path(".") + "' is not a file");
@@ -163,7 +163,7 @@ TEST_F(Include, AnotherVersionInsideHasANote) {
     folder.write("b.xml", "<scene version='0.6.0'><bsdf type='diffuse'/></scene>");
     const LoadedScene loaded = load("<sensor type='perspective'/><include filename='b.xml'/>");
     ASSERT_EQ(loaded.notes.size(), 1u);
-    EXPECT_EQ(loaded.notes[0].text, "the version of the file that includes this one counts, '3.0.0'");
+    EXPECT_EQ(loaded.notes[0].text, "the version of the including file is used, '3.0.0'");
 }
 
 } // namespace tessera

@@ -59,16 +59,16 @@ TEST(InstancePlugin, RefusesWhatMitsubaRefuses) {
     using testing::HasSubstr;
     EXPECT_THAT(
         error_of("<shape type='shapegroup' id='g'><shape type='cube'><emitter type='area'/></shape></shape>"),
-        HasSubstr("a shape of a shapegroup cannot give light"));
+        HasSubstr("a shape of a shapegroup cannot emit light"));
     EXPECT_THAT(error_of(std::string(group) + "<shape type='shapegroup' id='h'><shape type='instance'><ref "
                                               "id='g'/></shape></shape>"),
                 HasSubstr("a shapegroup holds neither groups nor instances"));
     EXPECT_THAT(error_of("<shape type='shapegroup' id='h'><ref id='h'/></shape>"),
                 HasSubstr("a shapegroup holds neither groups nor instances"));
     EXPECT_THAT(error_of("<shape type='cube' id='c'/><shape type='instance'><ref id='c'/></shape>"),
-                HasSubstr("an instance has one shapegroup in it"));
+                HasSubstr("an instance needs exactly one shapegroup"));
     EXPECT_THAT(error_of("<shape type='instance'/>"),
-                HasSubstr("s.xml:1:24: an instance has one shapegroup in it"));
+                HasSubstr("s.xml:1:24: an instance needs exactly one shapegroup"));
     EXPECT_THAT(error_of(std::string(group) +
                          "<shape type='instance'><ref id='g'/><transform name='to_world'><scale "
                          "x='0'/></transform></shape>"),

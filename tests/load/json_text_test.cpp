@@ -64,7 +64,9 @@ TEST(JsonText, WhatIsNestedTooDeepIsRefused) {
         JsonText(deep, name).parse();
         FAIL();
     } catch (const LoadError& error) {
-        EXPECT_EQ(std::string(error.what()).find("file.json:2:101: more than 100 objects and arrays"), 0u)
+        EXPECT_EQ(
+            std::string(error.what()).find("file.json:2:101: objects and arrays are nested more than 100 deep"),
+            0u)
             << error.what();
     }
     EXPECT_TRUE(parse_json(deep).is_null());

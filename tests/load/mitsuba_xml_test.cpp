@@ -144,7 +144,7 @@ TEST(MitsubaXml, UnlimitedDepth) {
                   .find("max_depth"),
               std::string::npos);
     EXPECT_NE(all(parse("<integrator type='path'><integer name='max_depth' value='65'/></integrator>"))
-                  .find("max_depth 65: 64 is taken"),
+                  .find("max_depth 65 is reduced to 64"),
               std::string::npos)
         << "as deep as no path is here";
     EXPECT_EQ(
@@ -302,7 +302,7 @@ TEST(MitsubaXml, EverythingNotUsedHasANote) {
                                                  "</scene>",
                                                  "n.xml");
     EXPECT_EQ(all(loaded), "n.xml:1:1: the scene has no sensor: a camera at the origin looks along +z\n"
-                           "n.xml:2:3: the bsdf 'velvet' is not known; diffuse magenta stands for it\n"
+                           "n.xml:2:3: the bsdf 'velvet' is not known; diffuse magenta is used instead\n"
                            "n.xml:3:24: 'shine' of bsdf 'diffuse' is not used\n"
                            "n.xml:4:3: the emitter 'lantern' is not known; it gives no light\n"
                            "n.xml:5:3: the shape 'torus' is not known and left out\n"

@@ -176,8 +176,8 @@ TEST(Ply, AnyByteMayBeWrong) {
 TEST(Ply, Errors) {
     EXPECT_EQ(error_of(small(three, "3 0 1 2\n")), "no error");
     EXPECT_EQ(error_of(small(three, "3 0 1 3\n")), "a face refers to vertex 3, but there are 3");
-    EXPECT_EQ(error_of(small(three, "3 0 1 -1\n")), "face 0: there can be no vertex -1.000000");
-    EXPECT_EQ(error_of(small(three, "3 0 1 1.5\n")), "face 0: there can be no vertex 1.500000");
+    EXPECT_EQ(error_of(small(three, "3 0 1 -1\n")), "face 0: -1.000000 is not a vertex index");
+    EXPECT_EQ(error_of(small(three, "3 0 1 1.5\n")), "face 0: 1.500000 is not a vertex index");
     EXPECT_EQ(error_of(small(three, "-3 0 1 1\n")), "face 0: a list cannot have the length -3.000000");
     EXPECT_EQ(error_of(small(three, "3 0 1")), "face 0: the file ends too early");
     EXPECT_EQ(error_of(small("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its y is not a finite number");
@@ -186,14 +186,14 @@ TEST(Ply, Errors) {
     EXPECT_EQ(error_of(small("0 0 0\n1 0 1e-400\n0 1 0\n", "3 0 1 2\n")), "no error");
     EXPECT_EQ(error_of(small("0 0 zero\n1 0 0\n0 1 0\n", "3 0 1 2\n")), "vertex 0: 'zero' is not a number");
     EXPECT_EQ(error_of(small(three, "3 0 1 2\n", 3, 1000000000)),
-              "the header promises 1000000000 rows of 'face', but the file ends too early for them");
+              "the header declares 1000000000 rows of 'face', but the file ends too early for them");
     EXPECT_EQ(error_of("ply\nformat ascii 2.0\nend_header\n"),
               "line 2: the format must be 'ascii', 'binary_little_endian' or 'binary_big_endian', version 1.0");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex -1\nend_header\n"), "line 3: '-1' is not a count");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty text x\nend_header\n"),
               "line 4: the type 'text' is not known");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
-              "vertex 0: there is no x, y and z");
+              "vertex 0: x, y or z is missing");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                        "property float z\nproperty float a_0\nend_header\n0 0 0 nan\n"),
               "vertex 0: its a_0 is not a finite number");

@@ -4,10 +4,10 @@
 #include "render/scene/scene.h"
 #include "tests/load/temporary_folder.h"
 
-#include <tuple>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <tuple>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -45,7 +45,7 @@ TEST(RealFiles, WhatIsNotThereIsLeftOutAndAnError) {
     for (const LoadNote& note : loaded.notes)
         errors += note.is_error ? note.text + "\n" : "";
     EXPECT_EQ(errors, "there is no file 'Models/none.obj': the shape is left out\n"
-                      "there is no file 'none.png': grey stands for it\n");
+                      "there is no file 'none.png': grey is used instead\n");
     EXPECT_NO_THROW(Scene{loaded.description});
     EXPECT_THROW(load_mitsuba_xml(file, {}, serial_for, nullptr, true), LoadError);
 }

@@ -104,9 +104,9 @@ TEST(Serialized, Errors) {
     EXPECT_EQ(error_of(one_mesh("")), "the compressed data end too early");
     // No memory is set aside for what cannot be there.
     EXPECT_EQ(error_of(one_mesh(counts(1000000000, 0))),
-              "the file promises 1000000000 vertices and 0 triangles, but is too short for them");
+              "the file declares 1000000000 vertices and 0 triangles, but is too short for them");
     EXPECT_EQ(error_of(one_mesh(counts(0, std::numeric_limits<std::uint64_t>::max()))),
-              "the file promises 0 vertices and 18446744073709551615 triangles, but is too short for them");
+              "the file declares 0 vertices and 18446744073709551615 triangles, but is too short for them");
     EXPECT_EQ(error_of(one_mesh(counts(1, 0))), "the compressed data end too early");
 
     std::string body = SerializedBytes(4).square<float>(0, 1);

@@ -148,11 +148,10 @@ TEST_F(Shares, AreUnbiasedHoweverMany) {
 
 TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
     const fs::path one = share(1, 3), two = share(2, 3), three = share(3, 3);
-    EXPECT_EQ(refusal({one}), "of 3 shares these are missing: 2, 3");
+    EXPECT_EQ(refusal({one}), "these of 3 shares are missing: 2, 3");
     EXPECT_THAT(refusal({one, two, three, share(2, 3, "twice.share")}),
                 HasSubstr("2-of-3.share and " + file("twice.share").string() + " are both share 2 of 3"));
-    EXPECT_THAT(refusal({one, two, share(3, 4)}),
-                HasSubstr("do not belong together: the one is of 4 shares, not 3"));
+    EXPECT_THAT(refusal({one, two, share(3, 4)}), HasSubstr("cannot be merged: the first is of 4 shares, not 3"));
     const auto changed = [&](auto change) {
         const ReferenceRecipe before = recipe;
         const PictureSubject before_subject = subject;
@@ -172,7 +171,7 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
     folder.write("text.share", "none");
     EXPECT_THAT(refusal({file("text.share")}), HasSubstr("text.share: is not a checkpoint"));
     write_checkpoint(file("plain.share"), "{}", {});
-    EXPECT_THAT(refusal({file("plain.share")}), HasSubstr("is no share of a reference"));
+    EXPECT_THAT(refusal({file("plain.share")}), HasSubstr("is not a share of a reference"));
 }
 
 TEST_F(Shares, OfAnotherVersionAreRefused) {

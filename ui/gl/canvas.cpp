@@ -15,13 +15,13 @@ namespace tessera {
 namespace {
 constexpr glm::vec3 background_colour(0.055f, 0.058f, 0.066f);
 
-/// Software renderers run the shader for every pixel that is drawn, of the image or not. The shader has the last
-/// word at the image's border, within a pixel.
+/// Limits drawing to the image, since software renderers run the shader for every pixel drawn. The shader decides
+/// exactly, within a pixel of the image's border.
 void clip_to_image(const CanvasView& view) {
     const glm::vec2 pane(view.pane_size);
     const glm::ivec2 min(glm::clamp(glm::floor(view.image_origin), glm::vec2(0), pane)),
         max(glm::clamp(glm::ceil(view.image_origin + view.image_extent), glm::vec2(0), pane));
-    glScissor(min.x, view.pane_size.y - max.y, max.x - min.x, max.y - min.y); // from the bottom
+    glScissor(min.x, view.pane_size.y - max.y, max.x - min.x, max.y - min.y); // y counts from the bottom
 }
 } // namespace
 
@@ -96,8 +96,8 @@ void CanvasShader::draw(const GlTexture& image, const CanvasView& view, const Gl
     glUseProgram(0);
 }
 
-/// Draws a coarse image at its own size, and stretches that. The same between the image's own values would go
-/// through the shader for each of the pane's pixels, which takes software renderers several times as long.
+/// Draws a coarse image at its own size, and stretches the result. Interpolation in the shader would run it for
+/// each pane pixel, which takes software renderers several times as long.
 void Canvas::draw_stretched(const CanvasShader& shader, const GlTexture& image, const CanvasView& view,
                             const GlTexture* subtrahend) {
     CanvasView small = view;
@@ -126,7 +126,8 @@ GLuint Canvas::draw(const CanvasShader& shader, const ImageTexture& image, const
     const DrawInto target(framebuffer_);
     CanvasShader::clear();
     const bool has_area = view.image_extent.x > 0 && view.image_extent.y > 0;
-    if (has_area && !image.empty() && !(subtrahend && subtrahend->empty())) { // else there is nothing to be seen
+    if (has_area && !image.empty() &&
+        !(subtrahend && subtrahend->empty())) { // else only the background is visible
         const GlTexture* const other = subtrahend ? &subtrahend->texture() : nullptr;
         if (view.coarse)
             draw_stretched(shader, image.texture(), view, other);

@@ -15,8 +15,8 @@ namespace tessera {
 
 namespace {
 
-constexpr double tooltip_delay = 0.4; // seconds
-constexpr float label_share = 0.40f;  // of a row's width
+constexpr double tooltip_delay = 0.4;   // seconds
+constexpr float label_fraction = 0.40f; // of a row's width
 
 std::string hidden_label(const char* id) {
     return std::string("##") + id;
@@ -30,10 +30,10 @@ void draw_tooltip(const char* text) {
     ImGui::EndTooltip();
 }
 
-// Typed values go through here: "nan" is no number, and infinity is beyond every range. What the user has not
-// touched stays: options and files may go beyond a slider's ends.
-void keep_within(float& value, float before, float least, float most) {
-    value = std::isnan(value) ? before : std::clamp(value, least, most);
+// Clamps a typed value, and rejects "nan". Values that the user does not touch may lie outside a slider's range,
+// since options and files allow more.
+void keep_within(float& value, float old, float least, float most) {
+    value = std::isnan(value) ? old : std::clamp(value, least, most);
 }
 
 } // namespace
@@ -72,7 +72,7 @@ void Controls::label(const char* text) const {
     ImGui::PushStyleColor(ImGuiCol_Text, colours::dim_text);
     ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
-    ImGui::SameLine(start + std::max(width * label_share, 1.0f), 0);
+    ImGui::SameLine(start + std::max(width * label_fraction, 1.0f), 0);
     ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
@@ -96,24 +96,24 @@ bool Controls::bare_choice(const char* id, const char* shown, std::span<const Ch
                 index = static_cast<int>(i);
             }
             if (selected)
-                ImGui::SetItemDefaultFocus(); // arrows begin there
+                ImGui::SetItemDefaultFocus(); // arrow keys start there
             place((std::string(id) + "/" + items[i].id).c_str(), items[i].help.c_str());
         }
-        ImGui::EndCombo(); // the item is the combo itself again
+        ImGui::EndCombo(); // the last item is the combo itself again
     }
     place(id, help);
     return changed;
 }
 
-/// What is to be shown in a control that is typed into: the draft, while there is one.
+/// Returns the value that a control shows: the draft while the user types into it, else the value.
 template <class Value>
 const Value& Controls::draft_of(const char* id, const Value& value) const {
     const Value* draft = draft_id_ == id ? std::get_if<Value>(&draft_) : nullptr;
     return draft ? *draft : value;
 }
 
-/// Takes what the item just drawn has made of the draft, once it is complete (`at_once`, as after Enter) or the
-/// item is left. Tells whether the value has changed.
+/// Stores the draft of the item just drawn. Assigns it to the value when it is complete (`at_once`, as after
+/// Enter) or the item loses focus. Returns whether the value changed.
 template <class Value>
 bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Value& value) {
     if (at_once || ImGui::IsItemDeactivatedAfterEdit()) {
@@ -124,13 +124,13 @@ bool Controls::take_draft(const char* id, const Value& draft, bool at_once, Valu
         draft_id_ = id;
         draft_ = draft;
     } else if (draft_id_ == id) {
-        draft_id_.clear(); // left as it was
+        draft_id_.clear(); // left without a change
     }
     return false;
 }
 
-/// Takes what the slider just drawn has made of the draft: at once while it is dragged, and what is typed (Ctrl +
-/// click) as a number's is. Tells whether the value has changed.
+/// Assigns a slider's draft to the value: at once while it is dragged, and like a number's when it is typed (Ctrl
+/// + click). Returns whether the value changed.
 template <class Value>
 bool Controls::took_slider(const char* id, const char* help, const Value& draft, bool changed, Value& value) {
     const bool typed = ImGui::GetIO().WantTextInput || draft_id_ == id;
@@ -176,7 +176,7 @@ bool Controls::log_slider(const char* id, const char* label_text, float& value, 
     return took_slider(id, help, draft, changed, value);
 }
 
-/// The ImGuiDataType of the value.
+/// Returns the ImGuiDataType of the value.
 template <class Value>
 constexpr int data_type() {
     if constexpr (std::is_same_v<Value, double>)
@@ -195,8 +195,8 @@ bool Controls::typed_number(const char* id, const char* label_text, Value& value
     const bool changed =
         ImGui::InputScalar(hidden_label(id).c_str(), data_type<Value>(), &draft, &step, &large_step,
                            is_real ? "%.6g" : nullptr, is_real ? ImGuiInputTextFlags_CharsScientific : 0);
-    const bool stepped = changed && !ImGui::GetIO().WantTextInput;   // by its buttons
-    draft = draft == draft ? std::clamp(draft, least, most) : value; // "nan" can be typed
+    const bool stepped = changed && !ImGui::GetIO().WantTextInput;   // with its buttons
+    draft = draft == draft ? std::clamp(draft, least, most) : value; // the user can type "nan"
     const bool taken = take_draft(id, draft, stepped, value);
     place(id, help);
     return taken;
@@ -253,7 +253,7 @@ void heading(const char* text) {
 
 void draw_dialog(const char* title, glm::vec2 screen, float width, const std::function<void()>& draw) {
     const float font = ImGui::GetFontSize();
-    const glm::vec2 size(std::min(screen.x, font * width), 0); // as high as what is in it
+    const glm::vec2 size(std::min(screen.x, font * width), 0); // height 0: as high as its content
     ImGui::SetNextWindowPos({screen.x * 0.5f, screen.y * 0.5f}, ImGuiCond_Appearing, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({size.x, size.y});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_PopupBg));

@@ -40,7 +40,7 @@ void GlTexture::bind() {
 
 namespace {
 
-/// Whether the driver has float textures of that size, in pixels along an edge and in memory.
+/// Returns whether the driver can allocate a float texture of that size.
 bool has_textures_of(glm::ivec2 size) {
     glTexImage2D(GL_PROXY_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT, nullptr);
     GLint width = 0;
@@ -52,7 +52,7 @@ glm::ivec2 reduced_size(const RgbImage& image, int step) {
     return (glm::ivec2(image.width(), image.height()) + step - 1) / step;
 }
 
-/// Squares of step x step pixels become one: their mean, so that none with something odd (NaN, infinity) is lost.
+/// Returns the means over squares of step x step pixels, in which NaN and infinity stay visible.
 RgbImage reduced(const RgbImage& image, int step) {
     const glm::ivec2 size = reduced_size(image, step);
     RgbImage result(size.x, size.y);
@@ -92,7 +92,7 @@ void GlTexture::upload(const RgbImage& image, int most_edge) {
 
 void GlTexture::allocate_rgba8(glm::ivec2 size) {
     bind();
-    // Shown pixel by pixel: a software renderer is quicker without a filter.
+    // The texture is shown pixel by pixel, and software renderers are faster without a filter.
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);

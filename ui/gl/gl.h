@@ -14,8 +14,8 @@
 
 namespace tessera {
 
-/// Owners of OpenGL objects. Each makes its object at the first use and frees it at its end: a context must be
-/// current at both.
+// Owners of OpenGL objects. Each creates its object at first use and deletes it in its destructor: a context must
+// be current at both times.
 
 class GlTexture {
 public:
@@ -24,15 +24,15 @@ public:
     GlTexture(GlTexture&& other) noexcept;
     GlTexture& operator=(GlTexture&& other) noexcept;
 
-    /// Pixels as 32-bit floats; the storage is kept while the size stays. Not for an empty image. Where the driver
-    /// has no textures of that size, or an edge is longer than `most_edge`, squares of pixels become one, their
-    /// mean.
+    /// Uploads pixels as 32-bit floats. The storage is kept while the size stays. The image must not be empty. If
+    /// the driver has no textures of that size, or an edge is longer than `most_edge`, squares of pixels are
+    /// replaced by their mean.
     void upload(const RgbImage& image, int most_edge = std::numeric_limits<int>::max());
-    /// Storage for 8-bit RGBA, contents undefined. `size` >= 1x1.
+    /// Allocates storage for 8-bit RGBA with undefined contents. `size` >= 1x1.
     void allocate_rgba8(glm::ivec2 size);
 
     GLuint name() const { return name_; }     ///< 0 before the first upload
-    glm::ivec2 size() const { return size_; } ///< of the texture, whatever that of the image
+    glm::ivec2 size() const { return size_; } ///< of the texture, which may be smaller than the image
 
 private:
     void bind();
@@ -40,7 +40,7 @@ private:
     glm::ivec2 size_{0};
 };
 
-/// Something to draw into: an 8-bit colour texture.
+/// Framebuffer with an 8-bit colour texture.
 class Framebuffer {
 public:
     Framebuffer() = default;
@@ -58,7 +58,7 @@ private:
     GlTexture colour_;
 };
 
-/// Drawing goes to the framebuffer, over its whole size, while this lives; then to where it went before.
+/// Binds a framebuffer with its whole viewport for the lifetime of this object, then restores the previous one.
 class DrawInto {
 public:
     explicit DrawInto(const Framebuffer& target);
@@ -71,7 +71,7 @@ private:
     GLint viewport_[4] = {};
 };
 
-/// A linked vertex and fragment shader. Throws std::runtime_error with the compiler's log.
+/// Linked vertex and fragment shader. The constructor throws std::runtime_error with the compiler's log.
 class Program {
 public:
     Program(std::string_view vertex, std::string_view fragment);
@@ -96,7 +96,7 @@ private:
     GLuint name_ = 0;
 };
 
-/// Vertex array without arrays: what a shader that makes its own vertices is drawn with.
+/// Vertex array without arrays, for a shader that makes its own vertices.
 class EmptyVertexArray {
 public:
     EmptyVertexArray() { glGenVertexArrays(1, &name_); }
@@ -110,7 +110,7 @@ private:
     GLuint name_ = 0;
 };
 
-/// 8-bit RGB, row by row from the top left.
+/// Pixels in 8-bit RGB, row by row from the top left.
 struct ScreenPixels {
     glm::ivec2 size{0};
     std::vector<std::uint8_t> rgb;
@@ -121,7 +121,7 @@ struct ScreenPixels {
     }
 };
 
-/// What was drawn into the framebuffer bound for reading, from its lower left corner.
+/// Reads the framebuffer bound for reading, from its lower left corner.
 ScreenPixels read_screen(glm::ivec2 size);
 
 } // namespace tessera

@@ -75,7 +75,7 @@ void send_modifiers(bool ctrl, bool shift) {
 namespace {
 
 std::deque<ListStep> list_steps;
-bool step_is_down = false; // between two steps, it is let go for a frame
+bool step_is_down = false; // a step is released for one frame before the next
 
 #if IMGUI_VERSION_NUM >= 18700
 
@@ -87,7 +87,7 @@ void hold(ListStep step, bool down) {
 
 #else
 
-void hold(ListStep step, bool down) { // each frame clears it
+void hold(ListStep step, bool down) { // Dear ImGui clears inputs in each frame
     constexpr int inputs[] = {ImGuiNavInput_DpadLeft, ImGuiNavInput_DpadRight, ImGuiNavInput_DpadUp,
                               ImGuiNavInput_DpadDown, ImGuiNavInput_Activate,  ImGuiNavInput_Cancel};
     ImGui::GetIO().NavInputs[entry_of(inputs, step)] = down ? 1.0f : 0.0f;
@@ -95,7 +95,7 @@ void hold(ListStep step, bool down) { // each frame clears it
 
 #endif
 
-/// What is to be done before a frame.
+/// Presses or releases the next queued step, before a frame.
 void do_list_step() {
     if (list_steps.empty())
         return;
@@ -140,8 +140,8 @@ void Gui::set_style(float scale, Theme theme) {
         return;
     scale_ = sane_scale(scale);
     theme_ = theme;
-    // The fonts' texture alone: 1.86 forgets to forget the size of the buffers that ...DestroyDeviceObjects
-    // deletes, and draws nothing from then on.
+    // Only the fonts' texture is recreated: after ...DestroyDeviceObjects, version 1.86 keeps the sizes of deleted
+    // buffers and draws nothing.
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     apply_theme(scale_, theme_);
     ImGui_ImplOpenGL3_CreateFontsTexture();
@@ -157,8 +157,8 @@ void Gui::begin_frame(glm::vec2 size, float pixels_a_unit, float seconds) {
 
 void Gui::begin_window_frame() {
     ImGui_ImplOpenGL3_NewFrame();
-    // Steps in lists come as a gamepad's: keys are not read from Dear ImGui. The window's backend forgets it each
-    // time.
+    // Steps in lists are sent as gamepad input, since keys are not read from Dear ImGui. The window's backend
+    // resets these flags in each frame.
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
     do_list_step();

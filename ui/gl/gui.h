@@ -13,51 +13,50 @@ struct ImGuiContext;
 
 namespace tessera {
 
-/// What differs between the versions of Dear ImGui that the viewer compiles with (1.86 of Debian 12 to 1.90 of
-/// Debian 13) stands here and in gui.cpp, nowhere else. Keys are not read from Dear ImGui at all: see
-/// Keyboard.
+// Everything that differs between the supported versions of Dear ImGui (1.86 of Debian 12 to 1.90 of Debian 13) is
+// here and in gui.cpp. Keys are not read from Dear ImGui; see Keyboard.
 
 ImTextureID texture_id(unsigned opengl_name);
 
-/// Where the window saw buttons of the mouse go down, by button: none where it saw nothing, as with a script's.
+/// Positions of the mouse at which the window saw buttons go down, by button; none for clicks of scripts.
 using PressPositions = std::array<std::optional<glm::vec2>, 3>;
 
-/// Says so of those that went down, in a frame that has begun, and empties them.
+/// Tells Dear ImGui these positions for the clicks of the frame that has begun, and clears them.
 void tell_press_positions(PressPositions& by_button);
 
-/// Input from elsewhere than a window: seen by the next frame.
+/// Input that does not come from a window, for the next frame.
 void send_mouse_position(ImVec2 position);
 void send_mouse_button(ImGuiMouseButton button, bool down);
 void send_mouse_wheel(float up);
-/// A step within an open list or menu.
+/// A navigation step within an open list or menu.
 enum class ListStep { left, right, up, down, take, close };
-/// Steps come one after the other, each with a frame of its own: Dear ImGui looks at what is held when one begins.
+/// Queues a step. Each step has its own frames, since Dear ImGui samples held keys when a frame begins.
 void send_list_step(ListStep step);
-/// Whether steps are still to come, so that frames are due.
+/// Returns whether queued steps remain, so that frames are due.
 bool list_steps_pending();
 
 void send_modifiers(bool ctrl, bool shift);
 
-/// Dear ImGui on the current OpenGL context, without a window: one context, its fonts, and its OpenGL backend.
-/// OpenGL must be loaded (gladLoadGL) and current for as long as this lives.
+/// One context of Dear ImGui on the current OpenGL context, without a window, with its fonts and OpenGL backend.
+/// OpenGL must be loaded (gladLoadGL), and current for the lifetime of this object.
 class Gui {
 public:
-    /// `scale` of the display, 1 to 3. Throws std::runtime_error if OpenGL refuses.
+    /// @param scale  of the display, 0.5 to 4. Throws std::runtime_error if OpenGL fails.
     explicit Gui(float scale);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
     float scale() const { return scale_; }
-    /// Text, spaces and colours of what is drawn from the next frame on.
+    /// Sets fonts, spacing and colours for the next frames.
     void set_style(float scale, Theme theme); ///< between frames
 
     /// Begins a frame of `size` screen units, `pixels_a_unit` framebuffer pixels each, `seconds` after the last.
-    /// For a drawing place without a window; a window's backend sets these itself (begin_window_frame).
+    /// For a surface without a window; a window's backend sets these itself (begin_window_frame).
     void begin_frame(glm::vec2 size, float pixels_a_unit, float seconds);
-    /// Begins a frame whose size and input a window's backend has set.
+    /// Begins a frame whose size and input come from a window's backend.
     void begin_window_frame();
-    /// Ends the frame and draws it over the whole of the framebuffer bound.
+    /// Ends the frame and draws it over the whole bound framebuffer.
     void end_frame();
 
 private:
@@ -66,8 +65,8 @@ private:
     Theme theme_ = Theme::dark;
 };
 
-/// Draws a frame over the whole of the framebuffer bound, with the OpenGL backend of Dear ImGui's current context;
-/// the frame may be another's that has the same fonts.
+/// Draws a frame over the whole bound framebuffer, with the OpenGL backend of the current context. The frame may
+/// come from another context with the same fonts.
 void draw_over_all(ImDrawData& frame);
 
 } // namespace tessera

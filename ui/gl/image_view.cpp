@@ -9,8 +9,8 @@ namespace tessera {
 
 namespace {
 
-// Screen pixels an image pixel at which the whole picture fits. An image that nearly fills the pane is shown pixel
-// by pixel rather than stretched by a few.
+/// Returns the pane pixels for each image pixel at which the whole picture fits. An image that nearly fills the
+/// pane is shown pixel by pixel, without scaling.
 float fitting_scale(glm::ivec2 image_size, glm::ivec2 pane_size) {
     const glm::vec2 ratio = glm::vec2(pane_size) / glm::vec2(image_size);
     const float scale = std::min(ratio.x, ratio.y);
@@ -40,7 +40,7 @@ void ImageView::zoom_at(glm::vec2 pane_pixel, float factor, glm::ivec2 image_siz
     zoom_ = std::clamp(zoom_ * factor, least_zoom, most_zoom);
     const glm::vec2 extent = glm::vec2(image_size) * (fitting_scale(image_size, pane_size) * zoom_);
     center_ = fixed + (glm::vec2(pane_size) * 0.5f - pane_pixel) / extent;
-    center_ = glm::clamp(center_, glm::vec2(0), glm::vec2(1)); // the picture cannot be lost from sight
+    center_ = glm::clamp(center_, glm::vec2(0), glm::vec2(1)); // keeps the picture in sight
 }
 
 void ImageView::show(glm::vec2 min, glm::vec2 max, glm::ivec2 image_size, glm::ivec2 pane_size) {

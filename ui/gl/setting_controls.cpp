@@ -8,7 +8,7 @@ namespace tessera {
 
 namespace {
 
-/// More whole numbers than these are typed.
+/// Longest range of whole numbers that has a slider; longer ones are typed.
 constexpr int most_on_a_slider = 100;
 
 struct Drawer {

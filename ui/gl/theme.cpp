@@ -24,7 +24,7 @@ Icons found_icons;
 ImFont* found_bold = nullptr;
 ImFont* found_mono = nullptr;
 
-// Dear ImGui aborts on a font that is not there.
+/// Returns the first file that exists, or an empty string: Dear ImGui aborts on a missing font.
 std::string first_existing(std::initializer_list<const char*> candidates) {
     std::error_code ignored;
     for (const char* path : candidates) {
@@ -34,10 +34,10 @@ std::string first_existing(std::initializer_list<const char*> candidates) {
     return {};
 }
 
-// Basic Latin and Latin-1, some Greek, dashes, dots, minus, arrows.
+// Basic Latin and Latin-1, Greek, dashes, dots, arrows, minus, and comparison signs.
 constexpr ImWchar text_glyphs[] = {0x0020, 0x00ff, 0x0391, 0x03c9, 0x2010, 0x2027, 0x2190,
                                    0x2193, 0x2212, 0x2212, 0x2264, 0x2265, 0};
-// Only those in use: the whole font would take a fifth of a second.
+// Only the icons in use: loading the whole font would delay the start.
 constexpr ImWchar icon_glyphs[] = {0xf01e, 0xf01e, 0xf029, 0xf029, 0xf030, 0xf030, 0xf04b,
                                    0xf04c, 0xf05a, 0xf05a, 0xf071, 0xf071, 0};
 
@@ -63,7 +63,7 @@ void merge_icons(float pixels) {
         return;
     ImFontConfig config;
     config.MergeMode = true;
-    config.GlyphMinAdvanceX = pixels; // icons stand in columns
+    config.GlyphMinAdvanceX = pixels; // so that icons align in columns
     config.OversampleH = 2;
     config.OversampleV = 1;
     ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), std::floor(pixels * 0.93f), &config, icon_glyphs);
@@ -89,7 +89,7 @@ void load_fonts(float scale) {
     found_mono = add_text_font(mono, pixels);
 }
 
-/// Colours by their part: every grey is given for the dark theme and for the light one.
+/// Chooses between the values of a colour for the dark theme and for the light one.
 struct Palette {
     Theme theme;
 
@@ -99,7 +99,7 @@ struct Palette {
         return is_dark() ? ImVec4(value * 0.95f, value * 0.98f, value * 1.08f, alpha)
                          : ImVec4(value * 0.99f, value * 0.995f, value, alpha);
     }
-    /// Stronger is brighter on dark, and darker on light.
+    /// Returns the accent colour of a strength: brighter in the dark theme, darker in the light one.
     ImVec4 accent(float dark, float light, float alpha) const {
         return is_dark() ? ImVec4(0.25f * dark, 0.77f * dark, 0.70f * dark, alpha)
                          : ImVec4(glm::mix(1.0f, 0.0f, light), glm::mix(1.0f, 0.56f, light),
@@ -143,7 +143,7 @@ void set_colours(ImGuiStyle& style, const Palette& p) {
     c[ImGuiCol_HeaderHovered] = p.accent(0.55f, 0.45f, 0.75f);
     c[ImGuiCol_HeaderActive] = p.accent(0.60f, 0.55f, 0.90f);
     c[ImGuiCol_CheckMark] = p.accent(1.0f, 1.0f, 1.0f);
-    c[ImGuiCol_SliderGrab] = p.accent(0.62f, 0.50f, 1.0f); // text crosses it
+    c[ImGuiCol_SliderGrab] = p.accent(0.62f, 0.50f, 1.0f); // muted, since text crosses it
     c[ImGuiCol_SliderGrabActive] = p.accent(0.80f, 0.65f, 1.0f);
     c[ImGuiCol_Separator] = p.grey(0.22f, 0.78f);
     c[ImGuiCol_TextSelectedBg] = p.accent(0.7f, 0.6f, 0.5f);

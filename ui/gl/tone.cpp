@@ -8,8 +8,8 @@
 namespace tessera {
 
 namespace {
-constexpr float decades_a_length = 2; // a drag over the legend multiplies by a hundred
-constexpr float least_ratio = 1.01f;  // of the ends
+constexpr float decades_a_length = 2; // a drag over the whole legend multiplies by 100
+constexpr float least_ratio = 1.01f;  // of high to low
 constexpr float least = 1e-12f, most = 1e12f;
 } // namespace
 
@@ -41,7 +41,7 @@ ValueRange ValueRange::with_high_dragged(float by) const {
 
 namespace {
 
-/// ACES' reference transform, fitted by a fraction [Narkowicz 2015].
+/// Rational fit of the ACES reference transform [Narkowicz 2015].
 float filmic(float c) {
     return std::clamp(c * (2.51f * c + 0.03f) / (c * (2.43f * c + 0.59f) + 0.14f), 0.0f, 1.0f);
 }

@@ -9,27 +9,28 @@
 
 namespace tessera {
 
-/// What the first and the last of the false colours stand for.
+/// Values of the first and the last false colour.
 struct ValueRange {
     float low = 0;
     float high = 1;           ///< > low
-    bool logarithmic = false; ///< colours stand for powers; low > 0
+    bool logarithmic = false; ///< colours are spaced logarithmically; low > 0
 
-    /// Where a value lies: 0 at `low`, 1 at `high`, beyond them below and above.
+    /// Returns the position of a value: 0 at `low`, 1 at `high`, outside [0, 1] beyond them.
     float share(float value) const;
-    /// The value that lies there.
+    /// Returns the value at a position.
     float value(float share) const;
 
-    /// The range after its low or high end was dragged by a share of the legend's length. Stays in order.
+    /// Return the range after its low or high end was dragged by a fraction of the legend's length. low < high is
+    /// kept.
     ValueRange with_low_dragged(float by) const;
     ValueRange with_high_dragged(float by) const;
 
     bool operator==(const ValueRange&) const = default;
 };
 
-/// Colours that stand for numbers from 0 to a top value: display colours (sRGB), evenly spaced, linear between.
-/// Their lightness in OKLab rises in equal steps, from 0.20 to 0.94, while the hue turns from violet to yellow:
-/// what is greater looks brighter, to the colour-blind and on paper, too.
+/// False colours: display colours (sRGB), evenly spaced, with linear interpolation between. Their lightness in
+/// OKLab rises in equal steps from 0.20 to 0.94, while the hue turns from violet to yellow. Larger numbers look
+/// brighter, also to the colour-blind and in grey prints.
 inline constexpr std::array<glm::vec3, 9> false_colours = {{
     {0.122f, 0.001f, 0.240f},
     {0.120f, 0.069f, 0.473f},
@@ -42,23 +43,23 @@ inline constexpr std::array<glm::vec3, 9> false_colours = {{
     {0.986f, 0.944f, 0.390f},
 }};
 
-/// How radiance becomes brightness on the screen.
+/// Mapping of radiance to brightness on the screen.
 struct Tone {
     enum class Curve {
-        srgb,   ///< the display's own: what is linear looks linear
+        srgb,   ///< the display's own curve, clipped at 1
         filmic, ///< highlights are compressed, then sRGB
     };
     Curve curve = Curve::srgb;
     float exposure = 0;            ///< stops: radiance is multiplied by 2^exposure first
-    float difference_exposure = 0; ///< stops, which gradients and differences have beyond it
+    float difference_exposure = 0; ///< additional stops of gradients and differences
 
-    /// The exposure of gradients and differences, stops.
+    /// Returns the exposure of gradients and differences, in stops.
     float of_differences() const { return exposure + difference_exposure; }
 
     bool operator==(const Tone&) const = default;
 };
 
-/// What the canvas shows for a radiance, in [0, 1]: the shader's curves for drawings beside it.
+/// Returns the display colour of a radiance, in [0, 1], by the curves of the shader.
 Rgb displayed(const Rgb& radiance, const Tone& tone);
 
 } // namespace tessera

@@ -66,9 +66,9 @@ void SetDrawing::outline(const InspectedSet& set, bool border, ImU32 colour, flo
     }
 }
 
-void SetDrawing::arrow(glm::ivec2 from, glm::ivec2 to, float share, ImU32 colour, float width) const {
+void SetDrawing::arrow(glm::ivec2 from, glm::ivec2 to, float fraction, ImU32 colour, float width) const {
     const ImVec2 a = middle(from), end = middle(to);
-    const glm::vec2 way(end.x - a.x, end.y - a.y), tip = glm::vec2(a.x, a.y) + way * share;
+    const glm::vec2 way(end.x - a.x, end.y - a.y), tip = glm::vec2(a.x, a.y) + way * fraction;
     const float head = std::min(unit() * 0.22f, ImGui::GetFontSize() * 0.45f);
     const glm::vec2 ahead = way / std::max(glm::length(way), 1e-3f), aside(-ahead.y, ahead.x);
     const glm::vec2 foot = tip - ahead * head, left = foot + aside * (head * 0.5f),
@@ -92,7 +92,8 @@ void SceneLines::line(glm::vec3 from, glm::vec3 to, ImU32 colour, float width) c
     glm::vec4 a = project(from), b = project(to);
     if (a.z < least_depth_ && b.z < least_depth_)
         return;
-    if (a.z < least_depth_) // the part in front of the camera: what is projected is linear in the point
+    if (a.z <
+        least_depth_) // clips to the part in front of the camera: projection is linear in homogeneous coordinates
         a = glm::mix(b, a, (b.z - least_depth_) / (b.z - a.z));
     else if (b.z < least_depth_)
         b = glm::mix(a, b, (a.z - least_depth_) / (a.z - b.z));
@@ -151,20 +152,20 @@ void draw_footprint(const SceneLines& lines, glm::vec3 middle, const Footprint& 
                             width);
 }
 
-/// `share` of the light decides how plain it is.
-void draw_shift(const SceneLines& lines, const InspectedShift& shift, float share, bool marked) {
+/// Draws one shift. Its opacity grows with `fraction`, its luminance relative to the brightest shift.
+void draw_shift(const SceneLines& lines, const InspectedShift& shift, float fraction, bool marked) {
     if (shift.offset.empty())
         return;
     const float font = ImGui::GetFontSize(), width = marked ? font * 0.2f : font * 0.09f;
-    const ImU32 colour = with_alpha(outcome_colour(shift), marked ? 1 : 0.35f + 0.65f * share);
+    const ImU32 colour = with_alpha(outcome_colour(shift), marked ? 1 : 0.35f + 0.65f * fraction);
     for (std::size_t i = 0; i + 1 < shift.offset.size(); ++i)
         lines.line(shift.offset[i], shift.offset[i + 1], colour, width);
     if (!shift.beyond.empty())
         lines.line(shift.offset.back(), shift.beyond.front(), colour, width);
     for (std::size_t i = 0; i + 1 < shift.beyond.size(); ++i)
-        lines.line(shift.beyond[i], shift.beyond[i + 1], with_alpha(colour, marked ? 1 : 0.2f + 0.4f * share),
+        lines.line(shift.beyond[i], shift.beyond[i + 1], with_alpha(colour, marked ? 1 : 0.2f + 0.4f * fraction),
                    width);
-    for (glm::vec3 y : shift.offset) // circles for hundreds of them would take a software driver most of its time
+    for (glm::vec3 y : shift.offset) // squares, since circles of hundreds of paths are slow in software drivers
         marked ? lines.point(y, colour, font * 0.25f) : lines.dot(y, colour, font * 0.25f);
     if (marked)
         for (const InspectedStep& step : shift.steps)

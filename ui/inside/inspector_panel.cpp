@@ -14,7 +14,7 @@ namespace tessera {
 
 namespace {
 
-/// How many of the other base paths of a set bring a pixel light.
+/// Returns the number of other base paths of a set from which a pixel receives radiance.
 long count_arrived(const InspectedSet& set, glm::ivec2 pixel) {
     const std::vector<const InspectedShift*> arriving = set.to(pixel);
     return std::count_if(arriving.begin(), arriving.end(),
@@ -36,13 +36,13 @@ std::string sets_text(const Inspection& i) {
     }
     const std::string gets = "it gets " + short_text(i.shared_radiance());
     if (others == 0)
-        return i.sets.size() > 1 ? "shares nothing, and takes the mean of " + std::to_string(i.sets.size()) +
-                                       " paths of its own: " + gets
-                                 : "shares nothing: " + gets;
+        return i.sets.size() > 1
+                   ? "no path reuse, mean of " + std::to_string(i.sets.size()) + " own paths: " + gets
+                   : "no path reuse: " + gets;
     const std::string text =
         std::to_string(arrived) + " of " + std::to_string(others) + " other base paths reach it: " + gets;
     if (i.sets.size() > 1)
-        return "in " + std::to_string(i.sets.size()) + " sets " + text + " in the mean of these";
+        return "in " + std::to_string(i.sets.size()) + " sets " + text + " as their mean";
     return text + reuse_text(i.sets[0].base(i.sets[0].index_of(i.pixel)).reuse);
 }
 
@@ -50,20 +50,20 @@ std::string headline(const Inspection& i) {
     std::string line = std::string(paper_name(i.method)) + "   pixel (" + short_text(i.pixel) + ")   pass " +
                        std::to_string(i.pass) + "   own path " + short_text(i.radiance);
     if (!is_black(i.very_direct))
-        line += " and lamps seen " + short_text(i.very_direct);
+        line += " and directly visible emission " + short_text(i.very_direct);
     if (!i.sets.empty() && i.method != Method::pt)
         line += "   |   " + sets_text(i);
-    return line + (i.is_refused ? "   REFUSED: not finite" : "");
+    return line + (i.is_refused ? "   INVALID SAMPLE: not finite" : "");
 }
 
-/// What there is to say while there is nothing to show.
+/// Returns the text that is shown while there is no inspection.
 const char* waiting_text(const Inspector& inspector) {
     return !inspector.sample        ? "click on a pixel"
-           : inspector.sample->pass ? "going through the passes before it ..."
+           : inspector.sample->pass ? "replaying the earlier passes ..."
                                     : "waiting for the first whole pass";
 }
 
-/// `is_elsewhere`: the inspection is of a request that no pane shows, or none any more.
+/// @param is_elsewhere  no pane shows the request of the inspection
 void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
     static const std::vector<ChoiceItem> directions = choice_items(words::directions);
     int direction = static_cast<int>(inspector.direction);
@@ -80,9 +80,9 @@ void draw_top_row(Controls& controls, Inspector& inspector, bool is_elsewhere) {
     controls.place(
         "inspector.follow",
         inspector.sample && inspector.sample->pass
-            ? "This sample is of a given pass, and stays. Following leaves it for the newest pass at its "
-              "pixel, of what the pane shows now."
-            : "Looks at the newest pass, again and again; else at the one that was the newest "
+            ? "The inspector shows this sample of a given pass. Check this to follow the newest pass of its "
+              "pixel in the pane."
+            : "Always shows the newest pass. Otherwise, shows the pass that was the newest "
               "when the pixel was chosen.");
     ImGui::SameLine();
     if (controls.button("inspector.close", "Close", "Ends the path inspector (I)."))

@@ -24,51 +24,50 @@ struct Column {
 };
 
 constexpr Column vertex_columns[] = {
-    {"vertex",
-     "x1 is what the camera sees through the pixel; y1, y2, ... are those of a shifted path, and where that "
-     "joins the base path, x again."},
-    {"BSDF", "What the surface is, as in scene files."},
+    {"vertex", "x1 is the first vertex that the camera sees; y1, y2, ... are vertices of an offset path. Where it "
+               "joins the base path, they are x again."},
+    {"BSDF", "Material of the surface, named as in scene files."},
     {"pdf_w",
-     "Density of the way on, per steradian; after a perfectly smooth scatter (delta) a probability. Where a "
-     "shifted path ends at a lamp: of emitter and BSDF sampling together."},
+     "Density of the direction to the next vertex, per steradian; of a delta scatter, its probability. Where "
+     "an offset path ends at an emitter: the sum for emitter and BSDF sampling."},
     {"Jacobian",
-     "Of the shift at this vertex: solid angle of the way on at the offset over that at the base (no "
-     "unit) [Kettunen 2015, 5.2; Bekaert 2002]. 1 after a delta scatter, beyond the join, and toward the "
-     "environment; random replay all the way has 1, of the space of random numbers."},
+     "Jacobian of the shift at this vertex: solid angle of the next edge at the offset over that at the base (no "
+     "unit) [Kettunen 2015, 5.2; Bekaert 2002]. It is 1 at a delta scatter, beyond the reconnection, and toward "
+     "the environment. Full random replay has 1, in the space of random numbers."},
     {"value",
-     "Throughput up to here: product of f cos over pdf and survival, for a shifted path of f cos with the "
-     "Jacobian over the base's pdf (no unit; luminance). Where the light path ends, with its light: "
-     "radiance."},
-    {"ratio", "Density of the shifted path up to here, with all Jacobians, over that of the base path (no unit)."},
+     "Throughput up to here (no unit; luminance): product of f cos / (pdf * survival); for an offset path, f cos "
+     "and Jacobian of the offset over pdf and survival of the base. At the end of the light path, times its "
+     "emitted radiance."},
+    {"ratio", "Density of the offset path up to here, times all Jacobians, over that of the base path (no unit)."},
     {"footprint",
-     "What the path stands for there as one of the samples so far (violet): sides of a parallelogram, units of "
-     "the scene, from the path's derivatives by its random numbers, no further than light changes by 70 % "
-     "[Suykens 2001]. In brackets the side of a square by the scalar form, which does not look at light; of a "
-     "shifted path this alone, as if its own pixel had drawn it."},
-    {"position", "In the world, units of the scene."},
-    {"alpha", "Roughness (no unit): 1 diffuse, 0 perfectly smooth. Above the shift threshold, vertices can be "
-              "connected to."},
-    {"survival", "Probability of the roulette on path length that the path went on (no unit)."},
+     "Area that the path represents among the samples so far (violet): sides of a parallelogram, scene "
+     "units, from the derivatives of the path by its random numbers, limited to 70 % change of the light "
+     "[Suykens 2001]. In brackets: side of a square by the scalar form, without that limit. An offset path "
+     "has only this, as if its own pixel had sampled it."},
+    {"position", "World position, in scene units."},
+    {"alpha", "Roughness (no unit): 1 diffuse, 0 perfectly smooth. Vertices above the shift threshold can be "
+              "reconnected."},
+    {"survival", "Probability of continuing in the Russian roulette on path length (no unit)."},
     {"lamp",
      "Direct light at this vertex by emitter sampling, with its MIS weight: luminance of the radiance toward "
-     "the vertex before."},
-    {"hit", "The same by BSDF sampling: the way on meets a lamp. One that is seen in mirrors alone is none of the "
-            "path's light."},
+     "the previous vertex."},
+    {"hit",
+     "The same by BSDF sampling, where the next edge hits an emitter. Emitters seen only in mirrors are not part "
+     "of the light path."},
 };
 constexpr Column shift_columns[] = {
     {"from", "Pixel whose base path is shifted."},
     {"to", "Pixel that it is shifted to."},
     {"outcome",
-     "How the shift ended. own: the pixel's own path; not tried: the path is dark, or the roulette ended "
-     "it. A click lists its vertices."},
-    {"Jacobian",
-     "|J| of the light path that brings most, as the estimator has it: the product over its vertices, of "
-     "solid angles (no unit)."},
-    {"ratio", "r_m of the light path that brings most: density of the shifted path over the base's, with the "
+     "Outcome of the shift. own: the pixel's own path; not tried: the path has no light, or Russian roulette "
+     "skipped it. Click to list its vertices."},
+    {"Jacobian", "|J| of the brightest light path: the product over its vertices, in "
+                 "solid angles (no unit)."},
+    {"ratio", "r_m of the brightest light path: density of the offset path over that of the base path, with the "
               "Jacobian (no unit) [Bekaert 2002, Bauszat 2017]."},
-    {"weight", "1/R of that light path over the probability of survival (no unit)."},
-    {"value",
-     "What the pixel gets of all light paths in that set, of several the mean counts: luminance of the radiance."},
+    {"weight", "1/R of that light path over the survival probability of the roulette on reuse (no unit)."},
+    {"value", "Luminance of the radiance that the pixel receives from all light paths in this set. Of several "
+              "sets, the mean counts."},
 };
 
 template <std::size_t count>
@@ -149,9 +148,9 @@ void draw_shift_row(const InspectedShift& s, int row, Inspector& inspector, Cont
     const bool lit = inspector.marked == row || inspector.chosen == row;
     if (ImGui::Selectable(short_text(s.from).c_str(), lit, ImGuiSelectableFlags_SpanAllColumns))
         inspector.chosen = inspector.chosen == row ? -1 : row;
-    controls.place(
-        ("shifts.row" + std::to_string(row)).c_str(),
-        "A base path, taken from its own pixel to another one. A click lists the vertices of the offset path.");
+    controls.place(("shifts.row" + std::to_string(row)).c_str(),
+                   "A base path that is shifted from its own pixel to another. Click to list the vertices of the "
+                   "offset path.");
     if (ImGui::IsItemHovered())
         inspector.marked = row;
     ImGui::PopID();
@@ -187,7 +186,7 @@ std::string short_text(glm::ivec2 pixel) {
 
 namespace {
 
-/// The base path of a pixel.
+/// Returns the base path of a pixel.
 const std::vector<InspectedVertex>& base_path(const Inspection& inspection, glm::ivec2 pixel) {
     for (const InspectedSet& set : inspection.sets)
         if (const int k = set.index_of(pixel); k >= 0 && pixel != inspection.pixel)
@@ -205,15 +204,15 @@ void draw_vertex_table(const Inspector& inspector, float width, Controls& contro
     if (shift && shift->steps.empty())
         title += ", to (" + short_text(shift->to) + "): " + outcome_text(*shift);
     if (shift && shift->steps.empty())
-        shift = nullptr; // there is nothing but the base path to list
+        shift = nullptr; // there is no offset path to list
     if (shift)
         title = "Path of (" + short_text(shift->from) + ") shifted to (" + short_text(shift->to) +
                 "): " + (shift->ending.empty() ? outcome_text(*shift) : std::string(shift->ending));
     ImGui::BeginChild("vertices.part", {width, 0});
     ImGui::TextDisabled("%s", title.c_str());
     controls.place("vertices.title",
-                   "Of all its light paths, the one that brings most is listed. A row of the shifts "
-                   "chooses, and chosen again, gives way to the base path.");
+                   "Lists the brightest of the path's light paths. Click a row of the shifts to list "
+                   "its offset path; click it again for the base path.");
     if (begin_table("vertices", vertex_columns, 0, controls)) {
         const std::vector<InspectedVertex>& path = base_path(inspection, pixel);
         for (std::size_t i = 0; !shift && i < path.size(); ++i)

@@ -14,7 +14,7 @@ namespace tessera {
 namespace {
 
 constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 150);
-constexpr float least_pixel = 2; // screen units, below which a set would be a blot
+constexpr float least_pixel = 2; // smallest pixel edge, screen units, at which sets are filled
 
 void mark_pixel(const PictureFrame& frame, glm::ivec2 pixel, glm::ivec2 size, ImU32 colour) {
     const glm::vec2 a = frame.to_screen(glm::vec2(pixel) / glm::vec2(size));
@@ -25,7 +25,7 @@ void mark_pixel(const PictureFrame& frame, glm::ivec2 pixel, glm::ivec2 size, Im
     list.AddRect({a.x - grow, a.y - grow}, {b.x + grow, b.y + grow}, colour);
 }
 
-/// The pixel's tile: which pixels the shown shifts come from, or go to, and how they ended.
+/// Draws the pixel's sampling sets, and fills the pixels that shown shifts come from, or go to, by outcome.
 void draw_sets(const PictureFrame& frame, const Inspector& inspector) {
     const Inspection& inspection = *inspector.inspection;
     const SetDrawing drawing(frame, inspection.size);
@@ -75,7 +75,7 @@ void draw_inspected_paths(const PictureFrame& frame, const ScreenRect& clip, int
         draw_shifts(lines, shown_shifts(inspector), inspector.shown_row());
         draw_base_path(lines, inspector.inspection->path, 0.5f * radius);
     }
-    // One of an earlier request lies elsewhere in what the panes show now.
+    // The pixel of an earlier request may be at another place in the present pictures.
     if (!inspector.sample->origin || state.shows_request(inspector.sample->origin->generation))
         mark_pixel(frame, inspector.sample->pixel, state.request_size(), colours::overlay_accent);
     list.PopClipRect();

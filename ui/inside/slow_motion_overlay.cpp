@@ -27,7 +27,7 @@ public:
     void draw() const {
         for (int i = 0; i < place_.set; ++i)
             fill(slow_.tile->sets[i], -1);
-        // Whole before what is on its way, which may arrive in full.
+        // The current base path is included once its arrows have arrived.
         const bool has_arrived = slow_.arrived >= 1 || slow_.current >= slow_.tile->base_count();
         fill(set(), place_.base + (has_arrived ? 1 : 0));
         draw_parts();
@@ -41,19 +41,19 @@ public:
 private:
     const InspectedSet& set() const { return slow_.set(); }
 
-    /// What the pixels have got from the first base paths; -1: from all.
+    /// Fills pixels with their radiance from the first `bases` base paths; -1: from all.
     void fill(const InspectedSet& of, int bases) const {
         const int count = bases < 0 ? of.size() : bases;
         for (int m = 0; m < of.size(); ++m) {
             const bool border = of.is_border[m] != 0;
             if (border && bases < 0)
-                continue; // it is another tile's
+                continue; // it belongs to another tile
             const Rgb c = displayed(of.radiance(m, count), tone_) * (border ? 0.45f : 1.0f);
             drawing_.fill(of.pixels[m], ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
         }
     }
 
-    /// Draws what the tile is cut into.
+    /// Draws the tile and the sampling sets that it is split into.
     void draw_parts() const {
         for (const InspectedSet& part : slow_.tile->sets)
             drawing_.outline(part, false, part_colour, line_ * 0.6f);
@@ -65,21 +65,21 @@ private:
         for (int m = 0; m < set().size(); ++m)
             if (m != place_.base)
                 most = std::max(most, luminance(shift(m).value));
-        const float way = std::min(slow_.arrived * 1.25f, 1.0f); // and a moment to look
+        const float progress = std::min(slow_.arrived * 1.25f, 1.0f); // then arrows rest for a moment
         for (int m = 0; m < set().size(); ++m) {
             const InspectedShift& s = shift(m);
             if (m == place_.base || !s.is_tried)
                 continue;
-            const float share = most > 0 ? luminance(s.value) / most : 0;
+            const float fraction = most > 0 ? luminance(s.value) / most : 0;
             const bool ok = s.outcome == ShiftOutcome::ok;
-            const ImU32 colour = with_alpha(outcome_colour(s), ok ? 0.35f + 0.6f * share : 0.5f);
-            drawing_.arrow(s.from, s.to, way, colour, line_ * (0.5f + share));
-            if (way >= 1)
+            const ImU32 colour = with_alpha(outcome_colour(s), ok ? 0.35f + 0.6f * fraction : 0.5f);
+            drawing_.arrow(s.from, s.to, progress, colour, line_ * (0.5f + fraction));
+            if (progress >= 1)
                 draw_mark(s);
         }
     }
 
-    /// Draws at the edge of the pixel, as numbers stand within.
+    /// Marks a pixel along its edge, as numbers are drawn inside.
     void draw_mark(const InspectedShift& s) const {
         const ImVec2 a = drawing_.corner(s.to), b = drawing_.corner(s.to + 1);
         const float in = std::max((b.x - a.x) * 0.06f, line_);
@@ -97,7 +97,7 @@ private:
         drawing_.frame(pixel, colour, line_ * 2);
         if (reuse.survives())
             return;
-        const ImVec2 a = drawing_.corner(pixel), b = drawing_.corner(pixel + 1); // crossed out
+        const ImVec2 a = drawing_.corner(pixel), b = drawing_.corner(pixel + 1); // a cross
         const float in = (b.x - a.x) * 0.25f;
         ImDrawList& list = *ImGui::GetWindowDrawList();
         for (const auto& [shade, width] : {std::pair(shadow_colour, line_ * 3), std::pair(colour, line_ * 1.5f)}) {
@@ -106,7 +106,7 @@ private:
         }
     }
 
-    /// How much each pixel gets of this base path, and below by which weight, where there is room.
+    /// Draws the luminance that each pixel receives from this base path, and its weight below, if there is room.
     void draw_numbers() const {
         const float font = std::floor(ImGui::GetFontSize() * 0.8f);
         const float width = mono_font()->CalcTextSizeA(font, 1e6f, 0, "00000").x;
@@ -163,7 +163,7 @@ std::vector<float> slow_motion_luminances(const SlowMotion& slow) {
     std::vector<float> luminances;
     for (const InspectedSet& set : slow.tile->sets)
         for (int m = 0; m < set.size(); ++m)
-            if (!set.is_border[m]) // those are another tile's
+            if (!set.is_border[m]) // border pixels belong to another tile
                 luminances.push_back(luminance(set.radiance(m, set.size())));
     return luminances;
 }

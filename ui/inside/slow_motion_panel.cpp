@@ -22,22 +22,23 @@ void draw_controls(Controls& controls, ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     const float wide = ImGui::GetFontSize() * 4;
     if (controls.button("slow.hold", slow.held ? "Play" : "Hold",
-                        "Lets the base paths arrive one after the other, or stops there (Shift+Space).", wide))
+                        "Plays the base paths one after the other, or pauses (Shift+Space).", wide))
         slow.held = !slow.held;
     ImGui::SameLine();
-    if (controls.button("slow.back", "<", "One base path back, and waits (<)."))
+    if (controls.button("slow.back", "<", "Steps back one base path and pauses (<)."))
         slow.step(-1);
     ImGui::SameLine();
-    if (controls.button("slow.step", ">", "The next base path, and waits (>)."))
+    if (controls.button("slow.step", ">", "Steps forward one base path and pauses (>)."))
         slow.step(1);
     ImGui::SameLine();
-    if (controls.button("slow.tile", "Next tile", "The next tile to the right, of the newest pass (Shift+J)."))
+    if (controls.button("slow.tile", "Next tile",
+                        "Shows the next tile to the right, in the newest pass (Shift+J)."))
         slow.start({slow.slot, slow.tile ? slow.next_pixel(state.request_size()) : glm::ivec2(0), {}});
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     ImGui::SliderFloat("##slow.speed", &slow.speed, SlowMotion::least_speed, SlowMotion::most_speed,
                        "%.3g paths a second", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-    controls.place("slow.speed", "How many base paths arrive a second.");
+    controls.place("slow.speed", "Base paths per second.");
     ImGui::SameLine();
     if (controls.button("slow.close", "Close", "Ends the slow motion (J)."))
         slow.active = false;
@@ -48,8 +49,8 @@ std::string rect_text(const PixelRect& r) {
            ", " + std::to_string(r.y0) + ")";
 }
 
-/// "G-PR, pass 12: tile of 6 x 6 pixels at (120, 54), cut into 4; part 2 has 16 base paths, 7 of them from the
-/// border".
+/// Returns for example "G-PR, pass 12:  tile of 6 x 6 pixels at (120, 54), part 2 of 4:  16 base paths, 7 of them
+/// from its border".
 std::string tile_text(const SlowMotion& slow) {
     const TileInspection& tile = *slow.tile;
     const InspectedSet& set = slow.set();
@@ -68,7 +69,7 @@ std::string tile_text(const SlowMotion& slow) {
     return border > 0 ? text + ", " + std::to_string(border) + " of them from its border" : text;
 }
 
-/// "Base path 5 of 49, of pixel (123, 57): carries 0.21; survives the roulette, q = 0.4: weighs x 2.5".
+/// Returns for example "Base path 5 of 49, pixel (123, 57):  carries 0.21;  reused (q = 1)".
 std::string base_text(const SlowMotion& slow) {
     const InspectedSet& set = slow.set();
     const int k = slow.place().base;
@@ -77,16 +78,15 @@ std::string base_text(const SlowMotion& slow) {
     const std::string text = "Base path " + std::to_string(k + 1) + " of " + std::to_string(set.size()) +
                              ", pixel (" + short_text(set.pixels[k]) + "):  ";
     if (reuse.is_dark())
-        return text +
-               (is_black(base.radiance) ? "dark, there is nothing to reuse" : "carries nothing to be shared");
+        return text + (is_black(base.radiance) ? "dark, no light to reuse" : "its light is not reused");
     return text + "carries " + short_text(base.radiance) +
            (!reuse.survives()     ? ";  skipped by the roulette (q = " + short_text(reuse.survival) + ")"
             : reuse.survival >= 1 ? ";  reused (q = 1)"
                                   : ";  reused: survives the roulette with q = " + short_text(reuse.survival) +
-                                        ", so weighs x " + short_text(reuse.scale));
+                                        ", weight x " + short_text(reuse.scale));
 }
 
-/// How the shifts of the base path ended, in the outcomes' colours.
+/// Draws the number of shifts of the base path with each outcome, in the outcomes' colours.
 void draw_outcomes(const InspectedSet& set, int k) {
     std::array<int, shift_outcome_count> counts{};
     for (int m = 0; m < set.size(); ++m)
@@ -96,7 +96,7 @@ void draw_outcomes(const InspectedSet& set, int k) {
     for (int n : counts)
         all += n;
     if (all == 0) {
-        ImGui::TextDisabled(set.size() > 1 ? "no shift is tried" : "nobody to share with");
+        ImGui::TextDisabled(set.size() > 1 ? "no shift was tried" : "no other pixel in the set");
         return;
     }
     ImGui::Text("%d of %d shifts succeed", counts[0], all);
@@ -113,8 +113,8 @@ void draw_outcomes(const InspectedSet& set, int k) {
     }
 }
 
-/// What the base path gives to whom, and what the pixel has by then.
-std::string share_text(const InspectedSet& set, int k) {
+/// Returns the radiance that the base path contributes to its own pixel and to the others, and its weights.
+std::string contribution_text(const InspectedSet& set, int k) {
     Rgb others(0);
     float least = 0, most = 0;
     for (int m = 0; m < set.size(); ++m) {
@@ -132,29 +132,29 @@ std::string share_text(const InspectedSet& set, int k) {
     return text;
 }
 
-void draw_story(const ViewerState& state, Controls& controls) {
+void draw_explanation(const ViewerState& state, Controls& controls) {
     const SlowMotion& slow = state.slow_motion;
     const InspectedSet& set = slow.set();
     const int k = slow.place().base;
     ImGui::TextUnformatted(tile_text(slow).c_str());
     controls.place("slow.tile_text",
-                   "Which pixels share their base paths. White: the tile; turquoise: the pixels that "
-                   "get their light here; orange: a border, which shares as well, and is another tile's.");
+                   "The pixels that reuse each other's base paths. White: the tile; turquoise: pixels that "
+                   "receive radiance here; orange: the border, which takes part and belongs to another tile.");
     ImGui::TextUnformatted(base_text(slow).c_str());
     controls.place("slow.base_text",
-                   "The base path at hand: its pixel has a white frame; orange and crossed out: the "
-                   "roulette on reuse has ended it; grey: it carries nothing.");
+                   "The current base path, with a white frame around its pixel. Orange and crossed out: "
+                   "skipped by the roulette on reuse; grey: it has no light.");
     draw_outcomes(set, k);
     if (!set.base(k).reuse.survives())
         return;
-    ImGui::TextUnformatted(share_text(set, k).c_str());
-    controls.place("slow.share_text",
-                   "Luminance of the radiance that pixels get of this base path; weights are 1/R over "
-                   "the probability of survival, of the light path that brings most (no unit). In "
-                   "the pixels: above the light, below the weight.");
+    ImGui::TextUnformatted(contribution_text(set, k).c_str());
+    controls.place("slow.contribution_text",
+                   "Luminance of the radiance that pixels receive from this base path. Weights are 1/R over "
+                   "the survival probability, of the brightest light path (no unit). In "
+                   "the pixels: luminance above, weight below.");
 }
 
-/// Draws how many base paths of the tile have arrived, and how many are skipped.
+/// Draws a bar with one field for each base path of the tile: reused, skipped or dark; faint if not yet reached.
 void draw_progress(const SlowMotion& slow, float width) {
     const int count = slow.tile->base_count();
     const float height = std::floor(ImGui::GetFontSize() * 0.5f), step = width / static_cast<float>(count);
@@ -190,10 +190,10 @@ void draw_slow_motion_panel(const ScreenRect& where, Controls& controls, ViewerS
             ImGui::BeginChild("slow.story", {room.x - space - ImGui::GetStyle().ItemSpacing.x, 0});
             draw_progress(slow, ImGui::GetContentRegionAvail().x);
             controls.place("slow.progress",
-                           "All base paths of the tile: green reused, orange skipped by the roulette, "
-                           "grey dark; faint ones are still to come.");
+                           "All base paths of the tile: green: reused; orange: skipped by the roulette; "
+                           "grey: dark; faint: not yet reached.");
             ImGui::PushTextWrapPos(0);
-            draw_story(state, controls);
+            draw_explanation(state, controls);
             ImGui::PopTextWrapPos();
             ImGui::EndChild();
             ImGui::SameLine();

@@ -19,9 +19,9 @@ namespace {
 constexpr ImU32 background = IM_COL32(20, 22, 26, 255), border = IM_COL32(58, 61, 70, 255);
 constexpr ImU32 normal_colour = IM_COL32(120, 190, 255, 220), camera_colour = IM_COL32(226, 228, 233, 200);
 constexpr ImU32 lamp_colour = IM_COL32(255, 226, 92, 255);
-constexpr float field = 40; // degrees, across the smaller side
+constexpr float field = 40; // field of view in degrees, across the smaller side
 
-/// All that is to be in view: the path, the shifts that bring light, and what the camera sees.
+/// Returns all points to show: the path, the shifts with light, and what the scene's camera sees.
 std::vector<glm::vec3> extent_of(const SpaceSubject& subject, const SpaceView& view) {
     std::vector<glm::vec3> all;
     for (const InspectedVertex& x : subject.path) {
@@ -43,8 +43,8 @@ std::vector<glm::vec3> extent_of(const SpaceSubject& subject, const SpaceView& v
     return all;
 }
 
-/// How far along one axis of the picture (its left or up) a camera that looks ahead must stand, and how far back,
-/// so that all points lie within `slope` of the middle: |p.axis - e.axis| <= slope (p.ahead - e.ahead).
+/// Returns how far a camera e must move along one axis of the picture (left or up), and along its view direction
+/// `ahead`, so that all points p lie within `slope` of the middle: |p.axis - e.axis| <= slope (p.ahead - e.ahead).
 glm::vec2 stand_for(const std::vector<glm::vec3>& points, glm::vec3 axis, glm::vec3 ahead, float slope) {
     float plus = -1e30f, minus = -1e30f;
     for (glm::vec3 p : points) {
@@ -54,17 +54,18 @@ glm::vec2 stand_for(const std::vector<glm::vec3>& points, glm::vec3 axis, glm::v
     return {slope * (plus - minus) * 0.5f, -(plus + minus) * 0.5f};
 }
 
-/// Shows everything from where it looks; at first from beside the camera and above it.
+/// Moves the view's camera to show all points, keeping its direction; at first from beside the scene's camera and
+/// above it.
 void fit(const std::vector<glm::vec3>& points, glm::vec2 size, const SpaceSubject& subject, SpaceView& view) {
     const Camera& other =
         view.has_direction || !view.surroundings ? view.camera.camera() : view.surroundings->camera;
     Camera camera{other.to_world, field, FovAxis::smaller};
-    for (int axis = 0; axis < 3; ++axis) // whatever that sees, here it is a perspective of this field
+    for (int axis = 0; axis < 3; ++axis) // this view is always a perspective camera without scale
         camera.to_world[axis] = glm::normalize(camera.to_world[axis]);
     glm::vec3 middle(0);
     for (glm::vec3 p : points)
         middle += p / static_cast<float>(points.size());
-    if (!view.has_direction) { // turned about what it is to show
+    if (!view.has_direction) { // turns around the points
         camera.to_world[3] =
             glm::vec4(middle - subject.scene_radius * glm::normalize(glm::vec3(camera.to_world[2])), 1);
         view.camera.set_home(camera, middle, subject.scene_radius);
@@ -74,7 +75,7 @@ void fit(const std::vector<glm::vec3>& points, glm::vec2 size, const SpaceSubjec
     view.has_direction = view.has_direction || view.surroundings;
     view.fits = false;
     const auto axis = [&](int i) { return glm::normalize(glm::vec3(camera.to_world[i])); };
-    constexpr float used = 0.8f; // of the picture: names stand beside points
+    constexpr float used = 0.8f; // of the picture, to leave room for names beside points
     const glm::vec2 slope = used * std::tan(glm::radians(field * 0.5f)) * size / std::min(size.x, size.y);
     const glm::vec2 left = stand_for(points, axis(0), axis(2), slope.x),
                     up = stand_for(points, axis(1), axis(2), slope.y);
@@ -112,7 +113,7 @@ void draw_surroundings(const SceneLines& lines, const Surroundings& around) {
     }
 }
 
-/// From the camera through the corners of its picture: a pyramid, or where rays are parallel a box.
+/// Draws edges from the camera through the corners of its picture: a pyramid, or a box if rays are parallel.
 void draw_camera(const SceneLines& lines, const Surroundings& around, float length) {
     const Projection projection(around.camera, around.size);
     const glm::vec2 size(around.size);
@@ -129,7 +130,7 @@ void draw_camera(const SceneLines& lines, const Surroundings& around, float leng
     lines.name(along(0, 0), "camera", camera_colour);
 }
 
-/// Where the ray begins that leads to a point, through the middle of the lens.
+/// Returns the origin of the camera ray to a point, through the middle of the lens.
 glm::vec3 eye_toward(const Surroundings& around, glm::vec3 point) {
     const Projection projection(around.camera, around.size);
     const glm::vec4 seen = projection.project(point);
@@ -167,10 +168,11 @@ void draw_space_view(glm::vec2 size, const SpaceSubject& subject, SpaceView& vie
     frame.placement = {glm::vec2(0), frame.rect.size()};
     ImGui::InvisibleButton("space", {frame.rect.size().x, frame.rect.size().y},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
-    controls.place("space", "The base path (white), its shifts (colours of their outcomes), normals (blue), lamps "
-                            "(yellow), footprints (violet) and what the camera sees. A drag turns, with Shift it "
-                            "moves, the wheel comes "
-                            "nearer, a double click shows all.");
+    controls.place("space",
+                   "The base path (white), its shifts (colours of their outcomes), normals (blue), lamps "
+                   "(yellow), footprints (violet), and the scene as points. Drag to rotate, with Shift to move; "
+                   "scroll to zoom; "
+                   "double-click to show all.");
     if (view.fits)
         if (const std::vector<glm::vec3> extent = extent_of(subject, view); !extent.empty())
             fit(extent, frame.rect.size(), subject, view);

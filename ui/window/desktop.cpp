@@ -20,14 +20,14 @@ glm::ivec2 on_screen(glm::ivec2 size) {
 }
 
 bool is_on_a_screen(glm::ivec2 corner) {
-    constexpr int grip = 64;
+    constexpr int reachable = 64; // screen units that must be visible
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
     return std::any_of(monitors, monitors + count, [&](GLFWmonitor* monitor) {
         glm::ivec2 at(0), room(0);
         glfwGetMonitorWorkarea(monitor, &at.x, &at.y, &room.x, &room.y);
-        return corner.x >= at.x && corner.y >= at.y && corner.x + grip <= at.x + room.x &&
-               corner.y + grip <= at.y + room.y;
+        return corner.x >= at.x && corner.y >= at.y && corner.x + reachable <= at.x + room.x &&
+               corner.y + reachable <= at.y + room.y;
     });
 }
 
@@ -36,7 +36,7 @@ namespace {
 thread_local const std::function<void()>* last_call = nullptr;
 
 int end_process(void*) {
-    std::fprintf(stderr, "The display is lost: the viewer ends.\n");
+    std::fprintf(stderr, "The connection to the display is lost. The viewer exits.\n");
     if (last_call && *last_call)
         (*last_call)();
     std::_Exit(display_lost);
@@ -46,7 +46,7 @@ int end_process(void*) {
 
 void watch_display() {
     using Handler = int (*)(void*);
-    void* xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD); // GLFW has loaded it, if it wants it
+    void* xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD); // loaded by GLFW if it uses X
     if (void* set = xlib ? dlsym(xlib, "XSetIOErrorHandler") : nullptr)
         reinterpret_cast<Handler (*)(Handler)>(set)(end_process);
 }

@@ -30,18 +30,18 @@ public:
         eglTerminate(display_);
     }
 
-    /// Makes the context current. Says what went wrong; empty: nothing did.
+    /// Creates the context and makes it current. Returns an error message; empty: success.
     std::string open() {
         display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
-            return "EGL offers no display in memory";
+            return "EGL has no display in memory (EGL_PLATFORM_SURFACELESS_MESA)";
         if (!eglBindAPI(EGL_OPENGL_API))
-            return "EGL offers no OpenGL";
+            return "EGL does not support OpenGL";
         const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
         if (!eglChooseConfig(display_, config_attributes, &config, 1, &count) || count == 0)
-            return "EGL offers no configuration";
+            return "EGL has no configuration for OpenGL";
         const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                      3,
                                      EGL_CONTEXT_MINOR_VERSION,
@@ -51,7 +51,7 @@ public:
                                      EGL_NONE};
         context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes);
         if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-            return "EGL offers no OpenGL 3.3";
+            return "EGL cannot create an OpenGL 3.3 context";
         if (gladLoadGL(reinterpret_cast<GLADloadfunc>(eglGetProcAddress)) == 0)
             return "OpenGL cannot be loaded";
         return {};
@@ -90,9 +90,10 @@ public:
             gui_->end_frame();
             if (hooks.after && !hooks.after())
                 return;
-            glFinish(); // there is nothing to show it to that would wait for it
+            glFinish(); // no display waits for the frame
             took = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
-            std::this_thread::sleep_for(std::chrono::duration<double>(frame_seconds - took)); // as a window does
+            std::this_thread::sleep_for(
+                std::chrono::duration<double>(frame_seconds - took)); // same rate as a window
             sleep(frames_ < 3 ? 0 : std::min(viewer.next_frame_in(), 0.5));
             ++frames_;
         }
@@ -116,7 +117,7 @@ private:
         woken_ = false;
     }
 
-    EglContext context_; // first: the others' objects live in it
+    EglContext context_; // first, as the objects of the others live in it
     glm::ivec2 size_{1};
     std::unique_ptr<Gui> gui_;
     Framebuffer target_;

@@ -10,53 +10,54 @@
 
 namespace tessera {
 
-constexpr double frame_seconds = 1.0 / 60; ///< at least, from one frame to the next
+constexpr double frame_seconds = 1.0 / 60; ///< shortest time from one frame to the next
 
 class Viewer;
 
-/// What is done around each frame.
+/// Functions that are called around each frame. Each may be empty.
 struct FrameHooks {
-    /// Called before it begins, when the window's own input is in: to add some. Gets how long the last one took,
-    /// from there until it was shown, seconds. May be empty.
+    /// Called before a frame begins, after the window's own input, to add input. Gets the duration of the last
+    /// frame, from this call until it was shown, in seconds.
     std::function<void(double last_frame_seconds)> before;
-    /// Called after it is drawn and before it is shown; false ends the loop. May be empty.
+    /// Called after a frame is drawn and before it is shown; false ends the loop.
     std::function<bool()> after;
-    /// Asked between frames, at least once a second: true ends the loop. May be empty.
+    /// Called between frames, at least once a second; true ends the loop.
     std::function<bool()> ends;
-    /// Called when the display is lost, from the thread of run(): the last that is done. May be empty.
+    /// Called last when the display is lost, from the thread of run().
     std::function<void()> lost;
 };
 
-/// What the process ends with when its display is lost (the server ended, or the connection to it).
+/// Exit code of the process when its display is lost (the server ended, or the connection to it).
 inline constexpr int display_lost = 3;
 
 struct SurfaceOptions {
     std::string title = "Tessera";
     WindowPlace place{{1440, 810}, {}, false};
-    bool exact_size = false; ///< keep its size even if the screen is smaller
+    bool exact_size = false; ///< keep the size even if the screen is smaller
 };
 
-/// Something that a viewer is drawn on, with its OpenGL context and Dear ImGui. The viewer must end before it.
+/// A surface that a viewer is drawn on, with its OpenGL context and Dear ImGui. It must outlive the viewer.
 class Surface {
 public:
     virtual ~Surface() = default;
 
-    /// Draws frames when they are due, and sleeps between them, until the user quits or a hook says so. What a
-    /// hook throws goes through. A lost display ends the process, see display_lost.
+    /// Draws frames when they are due, and sleeps between them, until the user quits or a hook ends the loop.
+    /// Exceptions of hooks pass through. A lost display ends the process, see display_lost.
     virtual void run(Viewer& viewer, const FrameHooks& hooks) = 0;
-    /// Makes run() draw a frame soon. From any thread.
+    /// Makes run() draw a frame soon. May be called from any thread.
     virtual void wake() = 0;
-    /// What the window is called. To be called from the thread of run().
+    /// Sets the window's title. Must be called from the thread of run().
     virtual void set_title(const std::string& title) = 0;
-    /// The size of the framebuffer, pixels.
+    /// Returns the size of the framebuffer in pixels.
     virtual glm::ivec2 pixels() const = 0;
 };
 
-/// A window on the screen. Null, and why in `error`, where there is no display or no OpenGL 3.3.
+/// Opens a window on the screen. Returns null, with the reason in `error`, if there is no display or no
+/// OpenGL 3.3.
 std::unique_ptr<Surface> open_window(const SurfaceOptions& options, std::string& error);
 
-/// A place in memory to draw into, by EGL without a display. Takes no input. Null, and why in `error`, where that
-/// is not offered.
+/// Opens a framebuffer in memory, by EGL without a display. It takes no input. Returns null, with the reason in
+/// `error`, if EGL does not support this.
 std::unique_ptr<Surface> open_offscreen(const SurfaceOptions& options, std::string& error);
 
 } // namespace tessera

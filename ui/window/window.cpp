@@ -18,8 +18,8 @@ namespace tessera {
 
 namespace {
 
-constexpr int frames_after_input = 3; // Dear ImGui settles sizes and popups a frame or two later
-constexpr double longest_sleep = 1.0; // a lost wake-up shows no longer than this
+constexpr int frames_after_input = 3; // Dear ImGui needs a frame or two more for sizes and popups
+constexpr double longest_sleep = 1.0; // limits the delay after a missed wake-up
 
 std::string last_glfw_error;
 
@@ -40,7 +40,7 @@ public:
 private:
     void install_callbacks();
     void wait_until_due(double next_frame_in);
-    void tell_place(ViewerState& state) const;
+    void record_place(ViewerState& state) const;
     static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void on_character(GLFWwindow* window, unsigned character);
@@ -56,7 +56,7 @@ private:
     float wanted_scale_ = 1;
     Viewer* viewer_ = nullptr; // while it runs
     glm::vec2 cursor_{0};
-    // By button. Dear ImGui 1.86 only knows where the mouse is by the next frame.
+    // Dear ImGui 1.86 knows only the mouse position of the next frame.
     PressPositions pressed_at_;
     int frames_due_ = frames_after_input;
     double last_frame_ = 0;
@@ -111,11 +111,12 @@ void Window::install_callbacks() {
     glfwSetWindowFocusCallback(window_, on_focus);
     glfwSetDropCallback(window_, on_drop);
     glfwSetCursorPosCallback(window_, on_cursor);
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { // perhaps a new window below it: it need not move
-        double x = 0, y = 0;
-        glfwGetCursorPos(w, &x, &y);
-        on_cursor(w, x, y);
-    });
+    glfwSetCursorEnterCallback(window_,
+                               [](GLFWwindow* w, int) { // a new window may appear below a mouse that does not move
+                                   double x = 0, y = 0;
+                                   glfwGetCursorPos(w, &x, &y);
+                                   on_cursor(w, x, y);
+                               });
     glfwSetMouseButtonCallback(window_, on_button);
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { of(w).input_came(); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).input_came(); });
@@ -135,7 +136,7 @@ void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int m
     if (action == GLFW_RELEASE)
         keyboard.release(key_of_glfw(key));
     else if (action == GLFW_PRESS) {
-        // The right one is no modifier to X where it makes brackets.
+        // The right Alt key is no modifier in X layouts where it is AltGr.
         const bool alt = (mods & GLFW_MOD_ALT) != 0 || glfwGetKey(window, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
         keyboard.press(key_of_glfw(key), key_named(printed_on(key, scancode), key_of_glfw(key), alt),
                        (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0);
@@ -192,7 +193,7 @@ glm::ivec2 Window::pixels() const {
     return size;
 }
 
-// Returns when a frame is due or something happened: at most 60 frames a second, none while nothing changes.
+/// Returns when a frame is due or an event arrived: at most 60 frames a second, none while nothing changes.
 void Window::wait_until_due(double next_frame_in) {
     const double now = glfwGetTime();
     if (woken_.exchange(false))
@@ -207,12 +208,12 @@ void Window::wait_until_due(double next_frame_in) {
     frames_due_ = std::max(frames_due_, 1);
 }
 
-void Window::tell_place(ViewerState& state) const {
+void Window::record_place(ViewerState& state) const {
     state.layout.display_scale = std::max(wanted_scale_, Layout::least_ui_scale);
     WindowPlace& place = state.layout.window;
     place.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
     if (place.maximised)
-        return; // the rest is what it comes back to
+        return; // position and size are kept for restoring the window
     glm::ivec2 corner(0), size(0);
     glfwGetWindowPos(window_, &corner.x, &corner.y);
     glfwGetWindowSize(window_, &size.x, &size.y);
@@ -238,13 +239,13 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
             glfwWaitEventsTimeout(longest_sleep); // minimised
             continue;
         }
-        // What a script waits for may come with a frame that nothing follows.
+        // A script may wait for a frame that no event triggers.
         const bool is_overdue = hooks.before && now - before >= longest_sleep;
         if ((frames_due_ == 0 && !is_overdue) || too_early)
             continue;
         frames_due_ = std::max(frames_due_ - 1, 0);
         last_frame_ = now;
-        tell_place(viewer.state());
+        record_place(viewer.state());
         gui_->set_style(viewer.state().layout.ui_scale(), viewer.state().layout.theme);
         ImGui_ImplGlfw_NewFrame();
         if (hooks.before)
@@ -259,7 +260,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         took = glfwGetTime() - now;
     }
     viewer_ = nullptr;
-    glfwHideWindow(window_); // what is on its way in the background may take a pass to end
+    glfwHideWindow(window_); // background work may take a pass to end
 }
 
 } // namespace

@@ -164,7 +164,7 @@ TEST_F(SceneChange, FiveHundredNotesAndAnErrorBelowThem) {
     for (int i = 0; i < 500; ++i)
         file.notes.push_back(
             {"room.xml:" + std::to_string(i) +
-             ":3: the bsdf 'coated' is not known; diffuse magenta stands for it (also at 12:3, 34:5, "
+             ":3: the bsdf 'coated' is not known; diffuse magenta is used instead (also at 12:3, 34:5, "
              "70:9 and 12 more places)"});
     show();
     EXPECT_EQ(state().messages.size(), 500u);
