@@ -79,7 +79,8 @@ void draw_form(Controls& controls, ViewerState& state) {
 }
 
 void draw_progress(Controls& controls, const ReferenceProgress& progress) {
-    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab)); // text crosses it
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram,
+                          ImGui::GetColorU32(ImGuiCol_SliderGrab)); // readable under the text
     ImGui::ProgressBar(static_cast<float>(std::clamp(progress.share(), 0.0, 1.0)), {-FLT_MIN, 0},
                        fmt::format("{} of {} spp", progress.spp, progress.spp_wanted).c_str());
     ImGui::PopStyleColor();

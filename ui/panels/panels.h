@@ -26,14 +26,12 @@ struct ImGuiInputTextCallbackData;
 
 namespace tessera {
 
-// The windows around the pictures. Each function draws into the current Dear ImGui frame and changes only the
-// state.
+// Windows around the pictures. Each function draws into the current Dear ImGui frame, and changes only the state.
 
 /// Draws the menu bar. Returns its height, screen units.
 float draw_menu_bar(Controls& controls, ViewerState& state);
 
-/// Draws the settings of the active pane, or of all panes if they are linked, and those of display, size and
-/// camera.
+/// Draws the settings of the active pane, or of all panes if linked, and those of display, size and camera.
 void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
 /// Draws the edge between `pictures` and the panels to their right, which the mouse can drag.

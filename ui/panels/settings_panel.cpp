@@ -94,8 +94,7 @@ bool begin_section(Controls& controls, ViewerState& state, PanelSection section,
     return open;
 }
 
-/// Returns the render settings of the active pane. For linked panes a setting matters if it does for any pane's
-/// method.
+/// Returns the render settings of the active pane. For linked panes a setting matters if it does for any method.
 std::vector<Setting> render_settings(ViewerState& state) {
     std::vector<Setting> settings = settings_of(state.active().settings.render);
     for (const PaneState& pane : state.panes) {

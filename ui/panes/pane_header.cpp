@@ -34,13 +34,13 @@ const std::vector<ChoiceItem>& buffer_items() {
     return items;
 }
 
-/// Returns the width of the controls for tile and norm.
+/// Returns the width of the controls for tile and reconstruction.
 float extras_width(const PaneSettings& settings) {
     const float font = ImGui::GetFontSize(), spacing = ImGui::GetStyle().ItemSpacing.x;
     return (reuses_paths(settings.render.method) ? font * 5.5f + spacing : 0) + font * 7 + spacing;
 }
 
-/// Draws the choices of a pane's tile and norm. A choice unlinks the panes, because it is for this pane alone.
+/// Draws the choices of a pane's tile and reconstruction. A choice is for this pane alone, and unlinks the panes.
 void draw_extras(const std::string& id, Controls& controls, ViewerState& state, PaneState& pane) {
     static const std::vector<ChoiceItem> tiles = [] {
         std::vector<ChoiceItem> list;
@@ -72,7 +72,7 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
         state.linked = false;
 }
 
-/// Draws the button that tells whether the pane denoises, and switches it.
+/// Draws the button that shows whether the pane denoises, and switches it.
 void draw_denoiser_button(const std::string& id, const char* label, Controls& controls, ViewerState& state,
                           int pane) {
     const bool is_denoised = denoises(applied_norm(state.panes[pane].settings));

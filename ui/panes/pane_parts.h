@@ -45,8 +45,7 @@ std::string waiting_text(const ViewerState& state, int pane);
 /// Returns a buffer's value as text: "0.123 0.456 0.789  Y 0.4", "12.5 paths per pass".
 std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about);
 
-/// Returns pixel and value at the cursor; empty: there is none. Pixels of a preview are those of the requested
-/// size.
+/// Returns pixel and value at the cursor; empty: there is none. For a preview, the pixel is one of the full size.
 std::string cursor_text(const ViewerState& state, const PaneImages& images, int pane);
 /// Returns the meaning and unit of the values at the cursor.
 std::string cursor_help(const Showing& showing, const ViewerState& state);
@@ -74,8 +73,7 @@ int magnifier_pixels(const PictureFrame& frame);
 void draw_magnifier(const PictureFrame& frame, const CanvasView& view, glm::ivec2 image_size, glm::vec2 place,
                     GLuint rendition);
 
-/// State of the mouse over a pane's picture in a frame. Positions are pixels of the pane from its upper left
-/// corner.
+/// State of the mouse over a pane's picture in a frame. Positions are pixels from the pane's upper left corner.
 struct PaneMouse {
     glm::vec2 position{0};
     glm::vec2 previous{0}; ///< position in the previous frame

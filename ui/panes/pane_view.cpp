@@ -154,7 +154,7 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_Hand); // a click chooses a pixel
     if (ImGui::IsItemActive() && !grip_.is_camera()) {
         drag(frame, state);
-        mouse.left = mouse.middle = mouse.right = false; // the wheel still works
+        mouse.left = mouse.middle = mouse.right = false; // only the wheel keeps working
     }
     if ((state.inspector.active || state.slow_motion.active) && mouse.left && !mouse.ctrl && !mouse.shift) {
         // A new tile moves the picture under the mouse, so a held button must not choose again.
@@ -220,8 +220,7 @@ PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools
     return grip;
 }
 
-/// Moves the held line or range to the mouse. Uses absolute positions, so that overshooting an end leaves no
-/// offset.
+/// Moves the held line or range to the mouse. Absolute positions avoid an offset after overshooting an end.
 void PaneView::drag(const PictureFrame& frame, ViewerState& state) const {
     const float x = mouse_position().x;
     if (grip_.wipe)

@@ -99,10 +99,9 @@ ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& i
 /// Returns the part's colours as a canvas view without a position.
 CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images);
 
-/// Returns the exposure, stops, at which 95 % of the positive absolute luminances are below 0.8. Empty: there are
-/// none.
+/// Returns the exposure, stops, at which 95 % of the nonzero absolute luminances are below 0.8. Empty: all are 0.
 std::optional<float> exposure_of(const Showing& showing, const PaneImages& images);
-/// Likewise for luminances or their differences.
+/// Returns the same exposure for given luminances or their differences.
 std::optional<float> exposure_of(std::vector<float> values);
 
 /// Textures that a canvas draws for the part.

@@ -26,8 +26,7 @@ public:
     void set_home(const Camera& camera, glm::vec3 scene_center, float scene_radius);
     void go_home();
 
-    /// Sets the camera and its distance to the target; 0: as far ahead as the scene's centre. The home view
-    /// stays.
+    /// Sets the camera and its distance to the target; 0: as far as the scene's centre. The home view stays.
     void put(const Camera& camera, float distance);
 
     const Camera& camera() const { return camera_; }
@@ -36,8 +35,7 @@ public:
     glm::vec3 target() const { return position() + distance_ * forward(); }
     float distance() const { return distance_; } ///< to the target
 
-    /// Sets the point around which orbit() turns, until the camera moves in another way. The target takes its
-    /// depth.
+    /// Sets the centre of orbit() until the camera moves in another way. The target takes the point's depth.
     void grab(glm::vec3 point);
     /// Turns the camera in place to look at the point. The target takes its depth.
     void focus(glm::vec3 point);

@@ -51,7 +51,7 @@ struct PaneCharts {
 
 inline constexpr int most_render_pixels_an_edge = 8192;
 
-/// How the number of rendered pixels is chosen.
+/// Choice of the rendered size.
 struct SizeChoice {
     enum class Base { pane, scene, custom };
     Base base = Base::pane; ///< size of the pane, of the scene's film, or `custom`
@@ -92,13 +92,13 @@ struct SceneInfo {
     std::vector<std::string> recent; ///< files, the newest first
 };
 
-/// Camera positions of this scene that the user keeps, in their order.
+/// Stored views of this scene, in the order in which they were added.
 struct Bookmarks {
     std::vector<Bookmark> views;
     int current = -1; ///< index of the last one visited or added; -1: none
 };
 
-/// How the panes render.
+/// State of rendering, for all panes.
 struct Rendering {
     SizeChoice size;
     glm::ivec2 latched_size{16, 9}; ///< Document::request_size()
@@ -107,7 +107,7 @@ struct Rendering {
     double patience = 0.5; ///< seconds after which the progress of a reconstruction is shown
 };
 
-/// How all panes display their pictures.
+/// Display settings of all panes.
 struct Display {
     ImageView view;
     Tone tone;

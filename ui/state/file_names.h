@@ -48,7 +48,7 @@ std::filesystem::path typed_file(const std::string& text);
 /// Returns the path relative to the current folder if the file lies in it or below; otherwise `file`.
 std::string short_path(const std::string& file);
 
-/// Returns the entries whose names start with `beginning`, ignoring case. Hidden entries need a beginning with a
+/// Returns the entries whose names start with `beginning`, ignoring case; hidden ones only if it starts with a
 /// dot.
 std::vector<FileEntry> beginning_with(const std::vector<FileEntry>& entries, const std::string& beginning);
 

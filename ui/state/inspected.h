@@ -151,8 +151,7 @@ const char* outcome_help(ShiftOutcome outcome);
 /// Returns display colours: the mean of the outcomes' colours of each pixel's shifts, black without shifts.
 RgbImage outcome_colours(const ReuseMaps& maps);
 
-/// Returns the outcomes of the shifts to a pixel, the most frequent first: "ok 71 %, occluded 20 %, no light 9
-/// %".
+/// Returns the outcomes of the shifts to a pixel, the most frequent first: "ok 71 %, occluded 29 %".
 std::string outcome_shares(const ReuseCounts& counts);
 
 } // namespace tessera
