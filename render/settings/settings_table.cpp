@@ -186,7 +186,7 @@ std::vector<Setting> settings_of(RenderSettings& s) {
         {"tile", "Tile",
          "Edge of a tile, in pixels. The pixels of a tile reuse each other's paths. Used by PR and G-PR.",
          Setting::Whole{&s.tile, 1, most_tile}, reuses},
-        {"adapt_tile", "Adapt",
+        {"adapt_tile", "Adaptive tiles",
          "Splits a tile where reusing paths costs more than it gains. With G-PR, pixels that gain nothing from "
          "reuse trace more paths of their own instead.",
          Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},
@@ -230,7 +230,7 @@ std::vector<Setting> settings_of(RenderSettings& s) {
 
 std::vector<Setting> settings_of(ReconstructionSettings& s) {
     return {
-        {"norm", "Norm", "How the picture is reconstructed from primal and gradients.",
+        {"norm", "Reconstruction", "How the picture is reconstructed from primal and gradients.",
          one_of(norm_choices(), s.norm)},
         {"alpha", "Alpha",
          "Weight of the primal relative to the gradients, without unit. A smaller alpha gives a smoother picture.",

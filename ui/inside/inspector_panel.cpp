@@ -34,15 +34,15 @@ std::string sets_text(const Inspection& i) {
         arrived += count_arrived(set, i.pixel);
         others += set.size() - 1;
     }
-    const std::string gets = "it gets " + short_text(i.shared_radiance());
+    const std::string value = "pixel value " + short_text(i.shared_radiance());
+    const std::string set_count = std::to_string(i.sets.size());
     if (others == 0)
-        return i.sets.size() > 1
-                   ? "no path reuse, mean of " + std::to_string(i.sets.size()) + " own paths: " + gets
-                   : "no path reuse: " + gets;
-    const std::string text =
-        std::to_string(arrived) + " of " + std::to_string(others) + " other base paths reach it: " + gets;
+        return "no path reuse; " + value + (i.sets.size() > 1 ? " (mean of " + set_count + " own paths)" : "");
+    const std::string text = std::to_string(arrived) + " of " + std::to_string(others) +
+                             (arrived == 1 ? " neighbour paths contributes; " : " neighbour paths contribute; ") +
+                             value;
     if (i.sets.size() > 1)
-        return "in " + std::to_string(i.sets.size()) + " sets " + text + " as their mean";
+        return text + " (mean of " + set_count + " sets)";
     return text + reuse_text(i.sets[0].base(i.sets[0].index_of(i.pixel)).reuse);
 }
 

@@ -22,10 +22,10 @@ namespace {
 void draw_method(Controls& controls, ReferenceMaking& making) {
     static const std::vector<ChoiceItem> methods = [] {
         constexpr const char* helps[] = {
-            "Path tracing: slow, and free of what tiles have in common.", "Path reusing in tiles of 8 pixels.",
-            "Gradients of neighbours, reconstructed by L2, or as sampled where that is nearer.",
-            "Gradients of tiles of 8 pixels, reconstructed by L2, or as sampled where that is nearer: the "
-            "quickest on most scenes."};
+            "Path tracing: slow, with independent errors in each pixel.", "Path reusing in tiles of 8 pixels.",
+            "Gradients between neighbours; L2 reconstruction, or raw samples if their error is smaller.",
+            "Gradients in tiles of 8 pixels; L2 reconstruction, or raw samples if their error is smaller. "
+            "Fastest on most scenes."};
         std::vector<ChoiceItem> list;
         for (Method method : all_methods)
             list.push_back({std::string(short_name(method)), std::string(paper_name(method)),
@@ -33,7 +33,7 @@ void draw_method(Controls& controls, ReferenceMaking& making) {
         return list;
     }();
     int index = static_cast<int>(making.method);
-    if (controls.choice("reference.method", "Method", methods, index, "What renders the reference."))
+    if (controls.choice("reference.method", "Method", methods, index, "Method that renders the reference."))
         making.method = all_methods[index];
 }
 
@@ -42,27 +42,28 @@ void draw_file(Controls& controls, ViewerState& state) {
     const std::string hint = default_reference_file(state).filename().string();
     controls.label("File");
     ImGui::InputTextWithHint("##reference.file", hint.c_str(), making.file.data(), making.file.size());
-    controls.place("reference.file",
-                   "EXR file to write; by itself one in the current folder, named after the scene, "
-                   "its size and depth, and the camera unless it is the scene's.");
+    controls.place(
+        "reference.file",
+        "EXR file to write. Default: a file in the current folder, named after scene, size, depth, and the "
+        "camera unless it is the scene's.");
 }
 
 void draw_notes(Controls& controls, ViewerState& state) {
     const glm::ivec2 size = state.request_size();
     const auto seconds = estimated_seconds(state);
-    dim_text(fmt::format("{} x {} pixels, depth {}, the camera of the panes. {}", size.x, size.y,
+    dim_text(fmt::format("{} x {} pixels, depth {}, camera of the panes. {}", size.x, size.y,
                          state.active().settings.render.max_depth,
                          seconds ? "About " + duration_text(*seconds) +
-                                       " if nothing else is rendered: the panes go first."
-                                 : "How long it takes is known once a pane has a picture."));
+                                       " if nothing else is rendered. The panes have priority."
+                                 : "The time is unknown until a pane has a picture."));
     std::error_code ignored;
     const std::filesystem::path file = wanted_reference_file(state);
     if (std::filesystem::exists(file, ignored))
-        dim_text("There is such a file already: it will be replaced.");
+        dim_text("The file exists and will be replaced.");
     if (!std::filesystem::exists(reference_checkpoint(file), ignored))
         return;
-    dim_text("It was begun before, and goes on from its checkpoint.");
-    controls.toggle("reference.anew", "Begin anew", state.reference_making.anew, "Forgets the checkpoint.");
+    dim_text("There is a checkpoint of this reference. Rendering continues from it.");
+    controls.toggle("reference.anew", "Start over", state.reference_making.anew, "Ignores the checkpoint.");
 }
 
 void draw_form(Controls& controls, ViewerState& state) {
@@ -70,26 +71,27 @@ void draw_form(Controls& controls, ViewerState& state) {
     draw_method(controls, making);
     Setting spp = spp_setting(making.spp, 2);
     spp.id = "reference.spp";
-    spp.help =
-        "Of two independent halves together: their difference tells how far the reference is from the truth.";
+    spp.help = "Samples per pixel of both halves together. The difference of these independent renders gives "
+               "the reference's error.";
     draw_setting(controls, spp);
     draw_file(controls, state);
     draw_notes(controls, state);
 }
 
 void draw_progress(Controls& controls, const ReferenceProgress& progress) {
-    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab)); // text crosses it
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram,
+                          ImGui::GetColorU32(ImGuiCol_SliderGrab)); // readable under the text
     ImGui::ProgressBar(static_cast<float>(std::clamp(progress.share(), 0.0, 1.0)), {-FLT_MIN, 0},
                        fmt::format("{} of {} spp", progress.spp, progress.spp_wanted).c_str());
     ImGui::PopStyleColor();
-    controls.place("reference.progress", "Samples a pixel of both halves.");
+    controls.place("reference.progress", "Samples per pixel of both halves together.");
     const bool known = std::isfinite(progress.seconds_left);
-    dim_text(progress.is_ending ? "Ending after this pass; the checkpoint is kept."
+    dim_text(progress.is_ending ? "Stops after this pass. The checkpoint is kept."
              : known            ? "About " + duration_text(progress.seconds_left) + " left."
-                                : "Beginning ...");
-    dim_text(progress.error ? fmt::format("Its own relMSE so far: {:.3g} +- {:.2g}", progress.error->relative_mse,
-                                          progress.error->standard_error)
-                            : "Its own error is not known yet.");
+                                : "Starting ...");
+    dim_text(progress.error ? fmt::format("relMSE of the reference so far: {:.3g} +- {:.2g}",
+                                          progress.error->relative_mse, progress.error->standard_error)
+                            : "The error of the reference is not known yet.");
     dim_text(progress.file.string());
 }
 
@@ -97,15 +99,15 @@ void draw_buttons(Controls& controls, ViewerState& state) {
     ReferenceMaking& making = state.reference_making;
     const float width = ImGui::GetFontSize() * 7;
     if (making.is_making()) {
-        if (controls.button("reference.cancel", "Cancel", "Ends it; made again, it goes on from there.", width))
+        if (controls.button("reference.cancel", "Cancel",
+                            "Stops rendering the reference. It can continue from its checkpoint.", width))
             state.wishes.stop_making = true;
-    } else if (controls.button("reference.make", "Make", "Renders it in the background; the panes go first.",
-                               width)) {
+    } else if (controls.button("reference.make", "Make",
+                               "Renders the reference in the background. The panes have priority.", width)) {
         state.wishes.make_reference = state.scene != nullptr;
     }
     ImGui::SameLine();
-    if (controls.button("reference.close", "Close", "Closes this window; what is being made goes on (Esc).",
-                        width))
+    if (controls.button("reference.close", "Close", "Closes this dialog (Esc). Rendering continues.", width))
         making.show = false;
 }
 
@@ -129,14 +131,14 @@ void draw_fields(Controls& controls, SampleForm& form, glm::ivec2 size) {
     controls.number("sample.x", "Pixel x", form.pixel.x, 0, size.x - 1,
                     "Column of the pixel, from 0 at the left.");
     controls.number("sample.y", "Pixel y", form.pixel.y, 0, size.y - 1, "Row of the pixel, from 0 at the top.");
-    controls.number("sample.pass", "Pass", form.pass, 0, most_int,
-                    "From 0, whether the pane has got there or not. How tiles were cut in a late one is learnt "
-                    "again from all before, which may take seconds.");
+    controls.number(
+        "sample.pass", "Pass", form.pass, 0, most_int,
+        "Index of the pass, from 0; the pane need not have reached it. Adaptive tile splitting of a late "
+        "pass is learned again from all passes before it, which can take seconds.");
     Setting seed = seed_setting(form.seed);
     seed.id = "sample.seed";
     seed.help =
-        "Of the random numbers. With another one than it has, the active pane starts anew; so do the others, "
-        "if all have the same settings.";
+        "Seed of the random numbers. Another seed restarts the active pane, and all panes if they are linked.";
     draw_setting(controls, seed);
 }
 
@@ -148,7 +150,7 @@ void draw_sample_buttons(Controls& controls, ViewerState& state) {
         form.show = false;
     }
     ImGui::SameLine();
-    if (controls.button("sample.close", "Close", "Leaves everything as it is (Esc).", width))
+    if (controls.button("sample.close", "Close", "Closes this dialog without a change (Esc).", width))
         form.show = false;
 }
 
@@ -158,10 +160,9 @@ void draw_sample_dialog(glm::vec2 screen, Controls& controls, ViewerState& state
     draw_dialog("Inspect a sample", screen, 26, [&] {
         const glm::ivec2 size = state.request_size();
         draw_fields(controls, state.layout.sample_form, size);
-        dim_text(fmt::format(
-            "Of the active pane: {}, {} x {} pixels. That of another render is the same only if scene, "
-            "camera, size, method and settings are.",
-            paper_name(state.active().settings.render.method), size.x, size.y));
+        dim_text(fmt::format("A sample of the active pane: {}, {} x {} pixels. A sample of another render is "
+                             "the same only if scene, camera, size, method and settings are the same.",
+                             paper_name(state.active().settings.render.method), size.x, size.y));
         ImGui::Spacing();
         draw_sample_buttons(controls, state);
     });

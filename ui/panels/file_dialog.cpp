@@ -28,11 +28,12 @@ struct PurposeText {
 
 const PurposeText& text_of(FilePurpose purpose) {
     static constexpr PurposeText texts[] = {
-        {"Open a scene", ".xml", "A Mitsuba scene, an .xml file."},
-        {"Open a reference", ".exr", "The image to measure errors against, an .exr file."},
-        {"Load settings", ".json", "Settings or a camera that the viewer has saved, a .json file."},
-        {"Follow a folder", "/", "The output folder of tessera bench, sweep or stability."}, // no file ends so
-        {"Save", "", "Writes the file, in the background."},
+        {"Open a scene", ".xml", "Opens a Mitsuba scene (.xml)."},
+        {"Open a reference", ".exr", "Opens the image to measure errors against (.exr)."},
+        {"Load settings", ".json", "Loads settings or a camera that the viewer has saved (.json)."},
+        {"Follow a folder", "/",
+         "Follows an output folder of tessera bench, sweep or stability."}, // no file has this extension
+        {"Save", "", "Writes the file in the background."},
     };
     return entry_of(texts, purpose);
 }
@@ -87,7 +88,7 @@ void FileDialog::draw(glm::vec2 screen, Controls& controls, ViewerState& state) 
     ImGui::EndPopup();
 }
 
-/// Begins where the scene on show lies, or in the current folder.
+/// Starts in the folder of the present scene or in the current folder.
 void FileDialog::begin(const ViewerState& state) {
     purpose_ = state.layout.choosing;
     chosen_.clear();
@@ -111,17 +112,17 @@ void FileDialog::set_text(const std::string& text) {
     read_text();
 }
 
-/// Lists the folder that the text leads to.
+/// Lists the folder of the typed path.
 void FileDialog::read_text() {
     const TypedPath typed = typed_path(text_.data());
-    filter_ = saves() ? "" : typed.beginning; // the name is to be another one
+    filter_ = saves() ? "" : typed.beginning; // a new file has another name than the listed ones
     if (typed.folder == folder_)
         return;
     folder_ = typed.folder;
     entries_ = list_folder(folder_, extension(), error_);
 }
 
-/// Tab completes; and a text that was put there is typed on, not typed over.
+/// Callback of the text field: completes on Tab, and moves the cursor to the end of a text set by the program.
 int FileDialog::edit(ImGuiInputTextCallbackData* data) {
     auto& self = *static_cast<FileDialog*>(data->UserData);
     if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion)
@@ -133,12 +134,12 @@ int FileDialog::edit(ImGuiInputTextCallbackData* data) {
 
 int FileDialog::complete(ImGuiInputTextCallbackData& data) const {
     const TypedPath typed = typed_path(data.Buf);
-    const std::string whole = common_beginning(beginning_with(entries_, typed.beginning));
-    if (whole.size() < typed.beginning.size())
+    const std::string completed = common_beginning(beginning_with(entries_, typed.beginning));
+    if (completed.size() < typed.beginning.size())
         return 0;
     const int begin = data.BufTextLen - static_cast<int>(typed.beginning.size());
     data.DeleteChars(begin, static_cast<int>(typed.beginning.size()));
-    data.InsertChars(begin, whole.c_str());
+    data.InsertChars(begin, completed.c_str());
     return 0;
 }
 
@@ -146,7 +147,7 @@ void FileDialog::draw_path(Controls& controls) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     const std::string before = text_.data();
     if (std::exchange(wants_focus_, false)) {
-        ImGui::SetWindowFocus(); // Dear ImGui 1.90.1 gives no focus to where it was not before: the list has it
+        ImGui::SetWindowFocus(); // the list can have the focus, and Dear ImGui 1.90.1 then leaves it there
         ImGui::SetKeyboardFocusHere();
     }
     const bool entered =
@@ -154,7 +155,7 @@ void FileDialog::draw_path(Controls& controls) {
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
                              ImGuiInputTextFlags_CallbackAlways,
                          edit, this);
-    controls.place("file.path", "The file. Tab completes its name, Enter opens it.");
+    controls.place("file.path", "Path of the file. Tab completes it, Enter opens the file.");
     if (before != text_.data())
         read_text();
     if (entered)
@@ -166,7 +167,7 @@ void FileDialog::draw_list(Controls& controls, float height) {
     ImGui::BeginChild("list", {0, std::max(height, 1.0f)});
     if (folder_.has_parent_path() && folder_ != folder_.root_path())
         draw_entry(controls, {"..", true});
-    const std::vector<FileEntry> shown = beginning_with(entries_, filter_); // a click changes what it is made of
+    const std::vector<FileEntry> shown = beginning_with(entries_, filter_); // a copy: a click changes entries_
     for (const FileEntry& entry : shown)
         draw_entry(controls, entry);
     if (!error_.empty()) {
@@ -189,29 +190,29 @@ void FileDialog::draw_entry(Controls& controls, const FileEntry& entry) {
     const bool clicked = ImGui::Selectable(
         label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
     ImGui::PopStyleColor();
-    controls.place(("file/" + entry.name).c_str(), path.string().c_str()); // a long name is cut off
+    controls.place(("file/" + entry.name).c_str(), path.string().c_str()); // the list cuts off long names
     if (!clicked)
         return;
     if (entry.is_folder)
         return set_text(with_slash(path) + (saves() ? typed_path(text_.data()).beginning : ""));
     const std::string filter = filter_;
     set_text(path.string());
-    filter_ = filter;                               // the others stay in view
-    if (selected && ImGui::IsMouseDoubleClicked(0)) // not the second click on a folder that was in its place
+    filter_ = filter;                               // keeps the other entries in the list
+    if (selected && ImGui::IsMouseDoubleClicked(0)) // not if the first click opened a folder at this place
         enter();
 }
 
-/// Opens what the text names, or goes into it.
+/// Chooses the typed file, or enters the typed folder.
 void FileDialog::enter() {
     const fs::path path = typed_file(text_.data());
     std::error_code ignored;
-    const bool is_in_it = typed_path(text_.data()).beginning.empty();
-    if (fs::is_directory(path, ignored) && !(wants_folder() && is_in_it))
+    const bool ends_with_slash = typed_path(text_.data()).beginning.empty();
+    if (fs::is_directory(path, ignored) && !(wants_folder() && ends_with_slash))
         set_text(with_slash(path));
     else if (can_take(path))
         chosen_ = path;
     else
-        wants_focus_ = wants_cursor_last_ = true; // it is to be typed on
+        wants_focus_ = wants_cursor_last_ = true; // typing can continue
 }
 
 void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
@@ -223,19 +224,19 @@ void FileDialog::draw_buttons(Controls& controls, ViewerState& state) {
     const bool is_there = saves() && replaces(path);
     const char* const verb = wants_folder() ? "Follow" : !saves() ? "Open" : is_there ? "Replace" : "Save";
     if (controls.button("file.open", verb, text_of(*purpose_).help, width) && is_file)
-        wants_folder() ? void(chosen_ = path) : enter(); // what is typed of a folder's name may be whole
+        wants_folder() ? void(chosen_ = path) : enter(); // the folder's name may lack a slash
     ImGui::PopStyleVar();
     ImGui::SameLine();
-    if (controls.button("file.cancel", "Cancel", "Leaves everything as it is (Esc).", width))
+    if (controls.button("file.cancel", "Cancel", "Closes this dialog without a change (Esc).", width))
         state.layout.choosing.reset();
     if (is_file && is_there) {
         ImGui::SameLine();
-        ImGui::TextDisabled("There is such a file: it will be replaced");
+        ImGui::TextDisabled("The file exists and will be replaced");
     }
     if (!is_file && !typed.beginning.empty()) {
         ImGui::SameLine();
         if (saves())
-            ImGui::TextDisabled("The name must end in %s, in a folder that is there", extension());
+            ImGui::TextDisabled("The name must end in %s, in an existing folder", extension());
         else
             ImGui::TextDisabled(wants_folder() ? "There is no such folder" : "There is no such file");
     }

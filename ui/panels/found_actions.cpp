@@ -23,8 +23,8 @@ std::string first_word(const std::string& text) {
 
 } // namespace
 
-bool has_words(const std::string& something, const std::string& text) {
-    const std::string all = lower(something);
+bool has_words(const std::string& entry, const std::string& text) {
+    const std::string all = lower(entry);
     std::istringstream words(lower(text));
     for (std::string word; words >> word;)
         if (all.find(word) == std::string::npos)

@@ -7,11 +7,11 @@
 
 namespace tessera {
 
-/// The actions whose menu, name, help or key has all words of the text, in either case; those whose name begins
-/// with the first word come first. All of them for an empty text.
+/// Returns the actions whose menu, name, help or keys contain all words of the text, ignoring case; first those
+/// whose name starts with the first word. An empty text returns all actions.
 std::vector<const Action*> actions_with(const std::string& text);
 
-/// Whether something with these words is meant by a text, as above.
-bool has_words(const std::string& something, const std::string& text);
+/// Whether `entry` contains all words of the text, ignoring case.
+bool has_words(const std::string& entry, const std::string& text);
 
 } // namespace tessera

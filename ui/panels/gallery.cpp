@@ -18,9 +18,9 @@ namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr float card_width = 10.5f; // heights of a line
+constexpr float card_width = 10.5f; // font sizes
 
-/// Empty: the scene within the program.
+/// Opens a scene file; empty: the built-in scene.
 void open(const std::filesystem::path& file, ViewerState& state) {
     if (file.empty())
         state.wishes.open_built_in = true;
@@ -28,7 +28,7 @@ void open(const std::filesystem::path& file, ViewerState& state) {
         state.wishes.open_scene = file.string();
 }
 
-/// What is known of recent scenes at once; pictures come later.
+/// Returns the entries of recent scenes, with their stored thumbnails.
 std::vector<GalleryEntry> recent_entries(const std::vector<std::string>& scenes, const fs::path& preferences) {
     std::vector<GalleryEntry> entries;
     for (const std::string& scene : scenes) {
@@ -39,7 +39,7 @@ std::vector<GalleryEntry> recent_entries(const std::vector<std::string>& scenes,
     return entries;
 }
 
-/// A dashed frame, as where things can be put is drawn everywhere. The whole window takes them.
+/// Draws a dashed frame as a hint. Files can be dropped anywhere on the window.
 void draw_drop_target(Controls& controls) {
     constexpr const char* text = "Drop a scene, a picture or a settings file here";
     const float font = ImGui::GetFontSize(), dash = std::floor(font * 0.5f);
@@ -48,8 +48,8 @@ void draw_drop_target(Controls& controls) {
     const ImVec2 max(min.x + size.x - 1, min.y + size.y - 1);
     ImGui::Dummy(size);
     controls.place("gallery.drop",
-                   "A Mitsuba scene (.xml) is opened, a picture (.exr) becomes the reference that errors "
-                   "are measured against, and settings or a camera (.json) are taken on.");
+                   "Opens a Mitsuba scene (.xml), uses a picture (.exr) as the reference that errors are measured "
+                   "against, or applies settings or a camera (.json).");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (float x = min.x; x < max.x; x += 2 * dash)
         for (const float y : {min.y, max.y})
@@ -107,12 +107,11 @@ void Gallery::draw_cards(const std::string& prefix, Shelf& shelf, Controls& cont
 
 void Gallery::take_entries(ViewerState& state, const Sources& sources) {
     if (sources.maker)
-        job_.ask(
-            0, [maker = sources.maker](const std::stop_token&) { return maker(); }, sources.wake);
+        job_.ask(0, [maker = sources.maker](const std::stop_token&) { return maker(); }, sources.wake);
     if (auto outcome = job_.take()) {
         const std::string& problem = outcome->result ? outcome->result->problem : outcome->error;
         if (!problem.empty())
-            state.add_message(Message::Kind::error, "The gallery: " + problem);
+            state.add_message(Message::Kind::error, "Gallery: " + problem);
         scenes_.fill(outcome->result ? std::move(outcome->result->entries) : std::vector<GalleryEntry>());
     }
     recent_job_.ask(
@@ -128,14 +127,14 @@ void Gallery::take_entries(ViewerState& state, const Sources& sources) {
 void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& state, const Sources& sources) {
     take_entries(state, sources);
     ImGui::SetNextWindowPos(
-        {where.min.x, where.min.y}); // in full: parts of pictures beside it would be in the way
+        {where.min.x, where.min.y}); // covers all pictures: visible parts of them would distract
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Gallery", nullptr, overlay_flags)) {
         heading("Scenes");
-        if (controls.button("gallery.open", "Open a scene ...", "Chooses a Mitsuba scene, an .xml file (Ctrl+O)."))
+        if (controls.button("gallery.open", "Open a scene ...", "Chooses a Mitsuba scene (.xml) (Ctrl+O)."))
             state.layout.choosing = FilePurpose::scene;
         ImGui::SameLine();
-        if (controls.button("gallery.close", "Close", "Shows the pictures (Esc); Ctrl+G shows this again."))
+        if (controls.button("gallery.close", "Close", "Closes the gallery (Esc). Ctrl+G opens it again."))
             state.layout.show_gallery = false;
         draw_drop_target(controls);
         ImGui::BeginChild("scenes");
@@ -143,7 +142,7 @@ void Gallery::draw(const ScreenRect& where, Controls& controls, ViewerState& sta
             heading("Recent");
             draw_cards("gallery.recent", recent_, controls, state);
         }
-        heading("The built-in box, and scenes on which methods are known to fail");
+        heading("Built-in scene, and scenes on which methods are known to fail");
         draw_cards("gallery/", scenes_, controls, state);
         ImGui::EndChild();
     }

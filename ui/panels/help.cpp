@@ -30,7 +30,7 @@ void draw_keys(const std::string& keys) {
     ImGui::PopStyleColor();
 }
 
-/// The actions of one menu that have all words of the text, below a heading.
+/// Draws the actions of one menu that contain all words of the text, with a heading.
 void draw_group(const char* menu, const std::string& text) {
     std::vector<const Action*> found;
     for (const Action* action : actions_with(text))
@@ -57,7 +57,7 @@ void draw_group(const char* menu, const std::string& text) {
     ImGui::EndTable();
 }
 
-/// What is dragged, turned and held.
+/// Draws the gestures that contain all words of the text.
 void draw_gestures(const std::string& text) {
     std::vector<Gesture> found;
     for (const Gesture& gesture : gestures())
@@ -65,7 +65,7 @@ void draw_gestures(const std::string& text) {
             found.push_back(gesture);
     if (found.empty())
         return;
-    heading("Mouse, and keys that are held");
+    heading("Mouse and held keys");
     if (!ImGui::BeginTable("gestures", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
         return;
     ImGui::TableSetupColumn("input");
@@ -93,8 +93,8 @@ void HelpPage::draw(glm::vec2 screen, Controls& controls, ViewerState& state) {
         ImGui::SetNextItemWidth(-FLT_MIN);
         ImGui::InputTextWithHint("##help.text", "Find a key or a command", text_.data(), text_.size());
         controls.place("help.text",
-                       "Words of what is looked for, in any order. Ctrl+Shift+P finds a command and does it.");
-        // Field and button stay where they are while the page is scrolled.
+                       "Type words in any order to filter the page. Ctrl+Shift+P finds a command and runs it.");
+        // The page scrolls separately, so that field and button stay in place.
         ImGui::BeginChild("page", {0, -ImGui::GetFrameHeightWithSpacing()});
         const char* previous = "";
         for (const Action& action : actions()) {

@@ -24,18 +24,18 @@ ImU32 colour_of(State state) {
 
 std::string text_of(const FollowedJob& job) {
     return job.state == State::done      ? "done"
-           : job.state == State::waiting ? "waits"
+           : job.state == State::waiting ? "waiting"
            : job.worker.empty()          ? "claimed"
                                          : "claimed by " + job.worker;
 }
 
-/// How the jobs stand, as one bar: what is done, what is claimed, and what waits.
+/// Draws the fractions of jobs that are done, claimed and waiting as one bar.
 void draw_bar(Controls& controls, const FollowedFolder& seen) {
     const auto all = static_cast<float>(std::max<std::size_t>(seen.jobs.size(), 1));
     const ImVec2 min = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, std::floor(ImGui::GetFontSize() * 0.5f));
     ImGui::Dummy(size);
-    controls.place("jobs.bar", "Jobs that are done, that a worker has claimed, and that wait for one.");
+    controls.place("jobs.bar", "Jobs that are done, claimed by a worker, and waiting.");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(min, {min.x + size.x, min.y + size.y}, IM_COL32(128, 128, 128, 60));
     float left = min.x;
@@ -53,7 +53,7 @@ std::vector<ImU32> colours_of(const ChartPlot& plot) {
     return all;
 }
 
-/// What the lines of all plots stand for; each as it is drawn.
+/// Draws the key of the lines, which all plots share.
 void draw_key(const ChartPlot& plot) {
     const float font = ImGui::GetFontSize();
     const std::vector<ImU32> all = colours_of(plot);
@@ -92,38 +92,37 @@ void draw_trouble(const std::string& text) {
     ImGui::PopStyleColor();
 }
 
-/// The first of them: a folder that is damaged may have thousands.
+/// Draws the first few texts. A damaged folder can have thousands.
 void draw_trouble(const std::vector<std::string>& texts) {
-    constexpr std::size_t most = 3;
-    for (std::size_t i = 0; i < std::min(texts.size(), most); ++i)
+    constexpr std::size_t shown_texts = 3;
+    for (std::size_t i = 0; i < std::min(texts.size(), shown_texts); ++i)
         draw_trouble(texts[i]);
-    if (texts.size() > most)
-        draw_trouble(fmt::format("and {} more files that cannot be read", texts.size() - most));
+    if (texts.size() > shown_texts)
+        draw_trouble(fmt::format("and {} more files that cannot be read", texts.size() - shown_texts));
 }
 
-/// Beside what was drawn last.
+/// Draws the numbers of jobs to the right of the last item.
 void draw_count(Controls& controls, const FollowedFolder& seen) {
     ImGui::SameLine();
     ImGui::Text("%s", fmt::format("{}: {} of {} jobs done, {} claimed, {} waiting", seen.command,
                                   seen.count(State::done), seen.jobs.size(), seen.count(State::claimed),
                                   seen.count(State::waiting))
                           .c_str());
-    controls.place("jobs.count", "References that are missing are jobs, too.");
+    controls.place("jobs.count", "Numbers of jobs. Rendering a missing reference is a job, too.");
 }
 
 } // namespace
 
 void JobsPanel::draw_charts(Controls& controls, const FollowedFolder& seen, glm::vec2 room) {
     if (seen.charts.empty())
-        return ImGui::TextDisabled("No job is done yet: there is nothing to draw.");
+        return ImGui::TextDisabled("There is no chart until a job is done.");
     chart_ = std::clamp(chart_, 0, static_cast<int>(seen.charts.size()) - 1);
     if (seen.charts.size() > 1) {
         std::vector<ChoiceItem> items;
         for (std::size_t i = 0; i < seen.charts.size(); ++i)
             items.push_back({std::to_string(i), seen.charts[i].title, "The chart of this scene."});
         const std::string shown = items[chart_].label;
-        controls.bare_choice("jobs.chart", shown.c_str(), items, chart_, -FLT_MIN,
-                             "Which scene's chart is shown.");
+        controls.bare_choice("jobs.chart", shown.c_str(), items, chart_, -FLT_MIN, "Scene of the chart.");
     } else {
         ImGui::TextDisabled("%s", seen.charts.front().title.c_str());
     }
@@ -137,21 +136,21 @@ void JobsPanel::draw_charts(Controls& controls, const FollowedFolder& seen, glm:
                   colours_of(chart.plots[i]));
     }
     ImGui::Dummy({room.x, height});
-    controls.place("jobs.plots", "What is done so far, as the report of the command will have it.");
+    controls.place("jobs.plots", "Results so far, as in the report of the command.");
     if (!chart.plots.empty())
         draw_key(chart.plots.front());
 }
 
 void JobsPanel::draw_list(Controls& controls, const FollowedFolder& seen) {
-    controls.toggle("jobs.claimed", "Only what is under way", only_claimed_,
-                    "Lists the jobs that are claimed alone.");
+    controls.toggle("jobs.claimed", "Only running jobs", only_claimed_,
+                    "Lists only jobs that a worker has claimed.");
     std::vector<const FollowedJob*> shown;
     for (const FollowedJob& job : seen.jobs)
         if (!only_claimed_ || job.state == State::claimed)
             shown.push_back(&job);
     if (!ImGui::BeginTable("jobs", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg))
         return;
-    ImGuiListClipper clipper; // there may be a hundred thousand
+    ImGuiListClipper clipper; // there can be a hundred thousand jobs
     clipper.Begin(static_cast<int>(shown.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
@@ -169,18 +168,19 @@ void JobsPanel::draw(const ScreenRect& where, Controls& controls, ViewerState& s
     if (ImGui::Begin("Followed folder", nullptr, overlay_flags)) {
         heading(view.folder.empty() ? "No folder is followed" : view.folder.string().c_str());
         if (controls.button("jobs.choose", "Follow another ...",
-                            "Chooses the output folder of a bench, a sweep or the stability suite."))
+                            "Chooses the output folder of tessera bench, sweep or stability."))
             state.layout.choosing = FilePurpose::jobs;
         ImGui::SameLine();
         if (controls.button("jobs.close", "Close",
-                            "Shows the pictures again (Esc); the folder is still followed."))
+                            "Closes this page (Esc). The viewer continues to follow the folder."))
             state.layout.show_jobs = false;
         if (view.seen)
             draw_count(controls, *view.seen);
         if (!view.error.empty()) {
             draw_trouble(view.error);
-            controls.place("jobs.error", "What is wrong with the folder; it is looked at again and again. Below "
-                                         "stands what was seen before.");
+            controls.place("jobs.error",
+                           "Error while reading the folder. The viewer tries again regularly, and shows "
+                           "the last state that it could read.");
         }
         if (view.seen) {
             const FollowedFolder& seen = *view.seen;

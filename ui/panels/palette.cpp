@@ -36,8 +36,10 @@ void CommandPalette::draw(glm::vec2 screen, Controls& controls, ViewerState& sta
         ImGui::SetNextItemWidth(-FLT_MIN);
         if (ImGui::InputTextWithHint("##palette", "What do you want to do?", text_.data(), text_.size()))
             chosen_ = 0;
-        controls.place("palette.text",
-                       "Words of a command, in any order. Arrows choose, Return does it, Esc closes.");
+        controls.place(
+            "palette.text",
+            "Type words in any order to filter the list. Arrow keys choose a command, Return runs it, Esc "
+            "closes the list.");
         draw_list(controls, state);
     }
     ImGui::End();
@@ -65,7 +67,7 @@ void CommandPalette::draw_list(Controls& controls, ViewerState& state) {
         ImGui::TextDisabled("%s", key.c_str());
     }
     if (count == 0)
-        ImGui::TextDisabled("No command has all of these words");
+        ImGui::TextDisabled("No command contains all these words");
     ImGui::EndChild();
     seen_ = chosen_;
     if (!taken)

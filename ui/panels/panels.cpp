@@ -45,21 +45,22 @@ void draw_menu(Controls& controls, const char* menu, ViewerState& state) {
     ImGui::EndMenu();
 }
 
-/// The end of a name that fits into a width; the beginning gives way to dots.
+/// Returns the name, with dots in place of its beginning if it is wider than `width`.
 std::string shortened(const std::string& name, float width) {
     const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= width; };
-    if (name.empty() || fits(name)) // nothing fits into no room at all
+    if (name.empty() || fits(name)) // even an empty name does not fit a negative width
         return name;
     std::size_t cut = 1;
     while (cut < name.size() && (!fits("..." + name.substr(cut)) || (name[cut] & 0xc0) == 0x80))
-        ++cut; // never within a character of UTF-8
+        ++cut; // never inside a UTF-8 sequence
     return "..." + name.substr(cut);
 }
 
-/// An item of the menu bar, about something under way. True: it was clicked.
-bool progress_item(const char* id, const char* what, float share, const char* help, Controls& controls) {
+/// Draws an item of the menu bar with the progress of a task. Returns whether it was clicked.
+/// @param share  fraction of the task that is done, [0, 1]
+bool progress_item(const char* id, const char* task, float share, const char* help, Controls& controls) {
     char text[64];
-    std::snprintf(text, sizeof text, "%s %.0f %%###%s", what, static_cast<double>(100 * share), id);
+    std::snprintf(text, sizeof text, "%s %.0f %%###%s", task, static_cast<double>(100 * share), id);
     ImGui::PushStyleColor(ImGuiCol_Text, colours::accent);
     const bool clicked = ImGui::MenuItem(text);
     ImGui::PopStyleColor();
@@ -67,20 +68,20 @@ bool progress_item(const char* id, const char* what, float share, const char* he
     return clicked;
 }
 
-/// How far the reference is that is being read, and the one that is being made.
+/// Draws the progress of reading a reference and of rendering one.
 void draw_references_under_way(Controls& controls, ViewerState& state) {
     if (state.reference_read && progress_item("reading", "Reading reference", *state.reference_read,
-                                              "A reference is being read. A click gives it up (Esc): what errors "
-                                              "are measured against stays.",
+                                              "A reference is being read. Click to cancel (Esc); the present "
+                                              "reference stays.",
                                               controls))
         state.wishes.cancel_reference = true;
     const auto& making = state.reference_making.progress;
     if (making && progress_item("making", "Reference", static_cast<float>(making->share()),
-                                "A reference is being made: shows or hides how far it is.", controls))
+                                "A reference is being rendered. Click to show or hide its progress.", controls))
         state.reference_making.show = !state.reference_making.show;
 }
 
-// Draws at the right end of the menu bar: the scene, and whether there is something to read.
+/// Draws the right end of the menu bar: the scene's name, and a button for the messages if there are any.
 void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     const std::size_t count = state.messages.size();
     const bool errors = std::any_of(state.messages.begin(), state.messages.end(),
@@ -96,7 +97,7 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     if (x > ImGui::GetCursorPosX())
         ImGui::SetCursorPosX(x);
     ImGui::TextDisabled("%s", name.c_str());
-    controls.place("scene_name", ("The scene on show: " + state.scene_info.name).c_str());
+    controls.place("scene_name", ("Scene: " + state.scene_info.name).c_str());
     if (count == 0)
         return;
     ImGui::PushStyleColor(ImGuiCol_Text, errors ? colours::error : colours::dim_text);
@@ -106,7 +107,7 @@ void draw_menu_bar_end(Controls& controls, ViewerState& state) {
     controls.place("messages", "Shows or hides the messages (F2).");
 }
 
-/// Opens the samples that a message is about, one after the other.
+/// Draws the button that opens the samples of a message, one per click.
 void draw_inspect_button(Message& message, int index, Controls& controls, ViewerState& state) {
     const std::size_t count = message.samples.size();
     const SampleChoice& next = message.samples[message.next_sample];
@@ -114,7 +115,7 @@ void draw_inspect_button(Message& message, int index, Controls& controls, Viewer
         count == 1 ? "Inspect" : fmt::format("Inspect {} of {}", message.next_sample + 1, count);
     const std::string help =
         fmt::format("Opens the sample of pixel ({}, {}) in the path inspector.{}", next.pixel.x, next.pixel.y,
-                    count == 1 ? "" : " Then the button goes on to the next one; F2 shows it again.");
+                    count == 1 ? "" : " The next click opens the next sample. F2 shows the messages again.");
     if (controls.button(("inspect_message" + std::to_string(index)).c_str(), label.c_str(), help.c_str())) {
         state.inspect(next);
         message.next_sample = (message.next_sample + 1) % count;
@@ -160,14 +161,14 @@ void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState
     ImGui::SetNextWindowPos({where.min.x, where.min.y});
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Messages", nullptr, overlay_flags)) {
-        if (controls.button("clear_messages", "Clear", "Forgets all messages.")) {
+        if (controls.button("clear_messages", "Clear", "Deletes all messages.")) {
             state.messages.clear();
             state.layout.show_messages = false;
         }
         ImGui::SameLine();
-        if (controls.button("hide_messages", "Hide", "Hides the list; F2 shows it again."))
+        if (controls.button("hide_messages", "Hide", "Hides the list. F2 shows it again."))
             state.layout.show_messages = false;
-        // The buttons stay where they are while the list is scrolled.
+        // The list scrolls separately, so that the buttons stay in place.
         ImGui::BeginChild("list");
         int index = 0;
         for (Message& message : state.messages)
@@ -197,7 +198,7 @@ void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& stat
         list.AddRect(min, max, colours::overlay_line, pad * 0.5f);
         list.AddText({min.x + pad, min.y + pad}, colours::overlay_text, text.c_str());
         ImGui::SetCursorScreenPos({min.x + pad, min.y + 1.5f * pad + text_size.y});
-        if (controls.button("cancel_load", "Cancel", "Gives the scene up; the one on show stays (Esc)."))
+        if (controls.button("cancel_load", "Cancel", "Cancels the load (Esc). The present scene stays."))
             state.wishes.cancel_scene = true;
         if (progress.total > 0) {
             const float share = static_cast<float>(progress.done) / static_cast<float>(progress.total);
@@ -214,7 +215,7 @@ void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground |
                                        ImGuiWindowFlags_NoNav;
-    const float line = ImGui::GetFontSize(), width = std::max(line * 0.4f, 4.0f); // wide enough to be caught
+    const float line = ImGui::GetFontSize(), width = std::max(line * 0.4f, 4.0f); // wide enough to grab
     const float height = std::max(pictures.size().y, 1.0f);
     ImGui::SetNextWindowPos({pictures.max.x - width / 2, pictures.min.y});
     ImGui::SetNextWindowSize({width, height});
@@ -233,7 +234,7 @@ void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState
                                               Layout::least_panel_width, Layout::most_panel_width);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         state.layout.panel_width = Layout().panel_width;
-    controls.place("panel edge", "Drag: how wide the panels are. Double click: as at first.");
+    controls.place("panel edge", "Drag to set the width of the panels. Double-click for the default width.");
     ImGui::End();
 }
 

@@ -26,33 +26,33 @@ struct ImGuiInputTextCallbackData;
 
 namespace tessera {
 
-/// The windows around the pictures. Each is drawn into the current Dear ImGui frame and changes the state only.
+// Windows around the pictures. Each function draws into the current Dear ImGui frame, and changes only the state.
 
-/// The menus of all actions, across the top; returns its height, screen units.
+/// Draws the menu bar. Returns its height, screen units.
 float draw_menu_bar(Controls& controls, ViewerState& state);
 
-/// Draws the settings of the active pane (of all, when linked), of the picture and its size.
+/// Draws the settings of the active pane, or of all panes if linked, and those of display, size and camera.
 void draw_settings_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-/// The edge between `pictures` and the panels to their right, which the mouse can drag.
+/// Draws the edge between `pictures` and the panels to their right, which the mouse can drag.
 void draw_panel_edge(const ScreenRect& pictures, Controls& controls, ViewerState& state);
 
-/// What the render on show in the active pane has counted.
+/// Draws the counters of the active pane's render.
 void draw_statistics_panel(const ScreenRect& where, Controls& controls, const ViewerState& state);
 
-/// Why there is no scene, and what can be done about it; over the pictures.
+/// Draws the reason why there is no scene, and buttons to open one, over the pictures.
 void draw_no_scene(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-/// What a reference is to be made of, or how far its making is; over everything.
+/// Draws the dialog that renders a reference, or the progress of that render, over everything.
 void draw_reference_dialog(glm::vec2 screen, Controls& controls, ViewerState& state);
 
-/// Which sample the path inspector is to open; over everything.
+/// Draws the dialog that chooses a sample for the path inspector, over everything.
 void draw_sample_dialog(glm::vec2 screen, Controls& controls, ViewerState& state);
 
-/// The messages, newest last; over the pictures, whose size must not depend on them.
+/// Draws the messages, newest last, over the pictures. The pictures' size does not depend on them.
 void draw_message_panel(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-/// All actions by menu, and all gestures, to be found by words; over everything.
+/// Help page over everything: all actions by menu, and all gestures, filtered by typed words.
 class HelpPage {
 public:
     void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
@@ -61,45 +61,47 @@ private:
     std::array<char, 128> text_{};
 };
 
-/// What is being loaded and how far that is, over the pictures, and a button to give it up.
+/// Draws the progress of a scene's load and a button to cancel it, over the pictures.
+/// @param what     name of the scene
+/// @param seconds  since the start of the load
 void draw_loading(const ScreenRect& where, Controls& controls, ViewerState& state, const std::string& what,
                   const LoadProgress::State& progress, double seconds);
 
-/// What was said last, over the lower edge of the pictures, until its time is over.
+/// Draws the toast over the lower edge of the pictures until its time is over.
 void draw_toast(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-/// The jobs of a folder that is followed, how many are done, and curves of what is; over the pictures.
+/// Page over the pictures with the jobs of the followed folder and charts of its results.
 class JobsPanel {
 public:
-    /// Draws it while state.layout.show_jobs.
+    /// Draws the page. To be called only while state.layout.show_jobs.
     void draw(const ScreenRect& where, Controls& controls, ViewerState& state, const FolderFollower::View& view);
 
 private:
     void draw_charts(Controls& controls, const FollowedFolder& seen, glm::vec2 room);
     void draw_list(Controls& controls, const FollowedFolder& seen);
 
-    std::filesystem::path folder_; // that is on show
-    int chart_ = 0;                // of its charts
+    std::filesystem::path folder_; // the displayed folder
+    int chart_ = 0;                // index of the displayed chart
     bool only_claimed_ = false;
 };
 
-/// Scenes with pictures, to be clicked, and where files can be dropped; over the pictures.
+/// Page over the pictures with scenes to open and an area to drop files.
 class Gallery {
 public:
     struct Sources {
-        const GalleryMaker& maker;                ///< may be empty: there are recent scenes alone
-        const std::filesystem::path& preferences; ///< beside which thumbnails lie; empty: there are none
-        int thumbnails_stored;                    ///< so far: each time they are read anew
-        const std::function<void()>& wake;        ///< called from another thread once pictures are there
+        const GalleryMaker& maker;                ///< may be empty: only recent scenes are listed
+        const std::filesystem::path& preferences; ///< file in whose folder thumbnails lie; empty: no thumbnails
+        int thumbnails_stored;                    ///< number so far; thumbnails are read again when it changes
+        const std::function<void()>& wake;        ///< called from another thread when entries are ready
     };
-    /// Draws it while state.layout.show_gallery.
+    /// Draws the page. To be called only while state.layout.show_gallery.
     void draw(const ScreenRect& where, Controls& controls, ViewerState& state, const Sources& sources);
 
 private:
-    /// Scenes with their pictures here and on the graphics side.
+    /// Entries with the textures of their pictures.
     struct Shelf {
         std::vector<GalleryEntry> entries;
-        std::vector<GlTexture> textures; // of the entries
+        std::vector<GlTexture> textures; // one per entry, uploaded when first drawn
         void fill(std::vector<GalleryEntry> with);
     };
     struct RecentRequest {
@@ -117,26 +119,26 @@ private:
     Shelf scenes_, recent_;
 };
 
-/// The list of all commands, to be found by words; over everything.
+/// List of all commands over everything, filtered by typed words.
 class CommandPalette {
 public:
-    /// Draws it while state.layout.show_palette. What is chosen is done.
+    /// Draws the list while state.layout.show_palette, and runs the chosen command.
     void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
 
 private:
     void draw_list(Controls& controls, ViewerState& state);
 
     std::array<char, 128> text_{};
-    int chosen_ = 0, seen_ = 0; // of what was found; where the list was scrolled to
+    int chosen_ = 0, seen_ = 0; // indices in the filtered list: the chosen entry, and the one scrolled to
     bool was_shown_ = false;
 };
 
-/// One number of a render's counters, ready to be shown.
+/// A displayed number of a render's counters.
 struct Statistic {
     std::string id; ///< "rays.camera"
     std::string label;
-    std::string value;           ///< may be empty where the share says all
-    std::optional<double> share; ///< of the group's whole, in [0, 1]
+    std::string value;
+    std::optional<double> share; ///< fraction of the group's total, [0, 1]
     std::string help;
 };
 
@@ -145,21 +147,20 @@ struct StatisticGroup {
     std::vector<Statistic> statistics;
 };
 
-/// What the snapshot's counters say, in groups. What its method does not do, or what did not happen, has no group.
+/// Returns the snapshot's counters in groups. Reuse and shifts have a group only if they occurred.
 std::vector<StatisticGroup> statistics(const Snapshot& snapshot);
 
-/// "9999", "12.3 k", "4.56 M", "7.89 G".
+/// Returns "9999", "12.3 k", "4.56 M" or "7.89 G".
 std::string count_text(std::uint64_t count);
 
-/// The endings of what is written of that kind: ".png", or ".csv", ".svg", ".png". The first is that of the file
-/// that is chosen; the others follow from it.
+/// Returns the endings of the files that a save of this kind writes: ".png", or ".csv", ".svg", ".png". The
+/// chosen file has the first; the others are written beside it.
 std::span<const char* const> saved_endings(SaveKind kind);
 
-/// Chooses a file: a path to be typed, which Tab completes, and the folder that it leads to, to be
-/// clicked.
+/// Dialog that chooses a file or folder: a typed path with completion, and a list of the path's folder.
 class FileDialog {
 public:
-    /// Draws it while state.layout.choosing says what for. What is chosen becomes a wish of the state.
+    /// Draws the dialog while state.layout.choosing is set. The chosen file becomes a request in state.wishes.
     void draw(glm::vec2 screen, Controls& controls, ViewerState& state);
 
 private:
@@ -181,15 +182,15 @@ private:
     static int edit(ImGuiInputTextCallbackData* data);
     int complete(ImGuiInputTextCallbackData& data) const;
 
-    std::optional<FilePurpose> purpose_; // of what is on show
-    SaveKind kind_ = SaveKind::picture;  // that is to be saved
-    std::array<char, 4096> text_{};
-    bool wants_focus_ = false, wants_cursor_last_ = false; // the text, which was put there
-    std::filesystem::path folder_;                         // that is listed
-    std::vector<FileEntry> entries_;                       // of the folder
-    std::string filter_;                                   // the beginning that was typed, not clicked
-    std::string error_;                                    // why there is nothing to choose
-    std::filesystem::path chosen_;                         // empty: nothing yet
+    std::optional<FilePurpose> purpose_;                   // of the open dialog; empty: it is closed
+    SaveKind kind_ = SaveKind::picture;                    // to save
+    std::array<char, 4096> text_{};                        // the typed path
+    bool wants_focus_ = false, wants_cursor_last_ = false; // requests for the text field in the next frame
+    std::filesystem::path folder_;                         // the listed folder
+    std::vector<FileEntry> entries_;                       // its entries
+    std::string filter_;                                   // typed beginning of the listed names
+    std::string error_;                                    // reason why the folder cannot be read
+    std::filesystem::path chosen_;                         // the chosen file; empty: none
 };
 
 } // namespace tessera

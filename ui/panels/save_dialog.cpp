@@ -1,4 +1,4 @@
-// The dialog of files where one is to be saved: what of, and under which name.
+// The part of FileDialog that is specific to saving.
 #include "recon/enumeration.h"
 #include "ui/panels/panels.h"
 #include "ui/state/words.h"
@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "veach-ajar-gpr-dx": what it is of.
+/// Returns a default name without extension: "veach-ajar-gpr-dx".
 std::string stem_of(const ViewerState& state, SaveKind kind) {
     const fs::path& scene = state.scene_info.source.file;
-    const bool has_folder_name = scene.stem() == "scene" && scene.has_parent_path(); // as most are called
-    // The current folder may be gone.
-    std::error_code ignored;
+    const bool has_folder_name =
+        scene.stem() == "scene" && scene.has_parent_path(); // many scenes are FOLDER/scene.xml
+    std::error_code ignored;                                // the current folder may be deleted
     std::string stem = scene.empty()     ? "cornell-box"
                        : has_folder_name ? fs::absolute(scene, ignored).parent_path().filename().string()
                                          : scene.stem().string();
@@ -48,31 +48,31 @@ std::span<const char* const> saved_endings(SaveKind kind) {
     return entry_of(endings, kind);
 }
 
-/// Begins where was saved last, with a name that nothing has.
+/// Starts in the folder of the last save, with an unused file name.
 void FileDialog::begin_saving(const ViewerState& state) {
     kind_ = state.layout.save_kind;
-    std::error_code ignored; // a current folder that is gone is found out below
+    std::error_code ignored; // a deleted current folder causes an error later
     const fs::path folder =
         state.layout.save_folder.empty() ? fs::current_path(ignored) : fs::path(state.layout.save_folder);
-    folder_.clear(); // other files are listed
+    folder_.clear(); // lists the files with another extension
     const auto is_taken = [this](const fs::path& file) { return replaces(file); };
     set_text(free_name(folder / stem_of(state, kind_), extension(), is_taken).string());
 }
 
-/// Whether saving to that file replaces one: it itself, or what is written beside it.
+/// Whether saving to this path replaces a file: the path itself, or one with another ending of the same kind.
 bool FileDialog::replaces(const fs::path& path) const {
     std::error_code ignored;
-    const auto is_there = [&](const char* ending) {
+    const auto exists = [&](const char* ending) {
         return fs::exists(fs::path(path).replace_extension(ending), ignored);
     };
-    return fs::exists(path, ignored) || std::ranges::any_of(saved_endings(kind_).subspan(1), is_there);
+    return fs::exists(path, ignored) || std::ranges::any_of(saved_endings(kind_).subspan(1), exists);
 }
 
-/// Another kind is called otherwise.
+/// Draws the choice of what to save. Another kind gets another file name.
 void FileDialog::draw_kind(Controls& controls, ViewerState& state) {
     static const std::vector<ChoiceItem> kinds = choice_items(words::saved);
     int kind = static_cast<int>(kind_);
-    if (!controls.choice("file.kind", "What", kinds, kind, "What is saved."))
+    if (!controls.choice("file.kind", "What", kinds, kind, "Content of the file."))
         return;
     state.layout.save_kind = static_cast<SaveKind>(kind);
     state.layout.save_folder = typed_path(text_.data()).folder.string();

@@ -24,20 +24,23 @@ namespace tessera {
 
 namespace {
 
-/// What the panel begins with; all else is for experts.
+/// Whether the setting is in the section Method; all others are in the section Expert.
 bool is_essential(const Setting& setting) {
     static constexpr std::string_view ids[] = {"tile", "roulette", "rr_delta", "norm", "alpha", "max_depth"};
     return std::find(std::begin(ids), std::end(ids), setting.id) != std::end(ids);
 }
 
-/// Draws a setting, with a mark where it is not as `usual`: a right click brings that back. Of what has no
-/// `usual`, draws the setting alone.
+/// Draws a setting. Marks it if it differs from the preset's value; a right click then resets it. Returns whether
+/// the setting changed.
+/// @param usual  the preset's value; empty: none
 bool draw_marked(Controls& controls, Setting setting, const std::optional<std::string>& usual,
                  const Preset& preset) {
     if (!usual || *usual == setting.text())
         return draw_setting(controls, setting);
-    const std::string help = std::string(setting.help) + "\n\n" + std::string(preset.label) + " has " + *usual +
-                             ": a right click brings that back.";
+    const bool is_default = &preset == &presets().front();
+    const std::string help = std::string(setting.help) + "\n\n" +
+                             (is_default ? "Default" : std::string(preset.label)) + ": " + *usual +
+                             ". Right-click to reset.";
     setting.help = help;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float font = ImGui::GetFontSize();
@@ -50,7 +53,7 @@ bool draw_marked(Controls& controls, Setting setting, const std::optional<std::s
     return true;
 }
 
-/// The value that the preset has for a setting; empty: it has none of its own.
+/// Returns the preset's value of a setting; empty: the preset does not set it.
 std::optional<std::string> usual_value(const Setting& setting, const ViewerState& state, const Preset& preset) {
     PaneSettings usual = state.active().settings;
     apply(preset, usual);
@@ -60,8 +63,8 @@ std::optional<std::string> usual_value(const Setting& setting, const ViewerState
     return {};
 }
 
-/// Draws the essential settings, or the others. What makes no difference as the others are is left out, but for
-/// alpha, so that what follows does not jump between norms.
+/// Draws the essential settings, or the others. Leaves out settings without effect, except alpha, so that the
+/// controls below it stay in place when the reconstruction changes. Returns whether a setting changed.
 bool draw_settings(Controls& controls, const ViewerState& state, const std::vector<Setting>& settings,
                    bool essential) {
     const Preset& preset = presets()[state.preset];
@@ -76,7 +79,7 @@ bool draw_settings(Controls& controls, const ViewerState& state, const std::vect
     return changed;
 }
 
-/// A heading that folds its section away. True: it is open.
+/// Draws the heading of a section, which collapses it. Returns whether the section is open.
 bool begin_section(Controls& controls, ViewerState& state, PanelSection section, const char* id, const char* title,
                    const char* help) {
     ImGui::Spacing();
@@ -91,8 +94,7 @@ bool begin_section(Controls& controls, ViewerState& state, PanelSection section,
     return open;
 }
 
-/// The render settings of the active pane. When all panes have them, each matters that does for one of the
-/// methods.
+/// Returns the render settings of the active pane. For linked panes a setting matters if it does for any method.
 std::vector<Setting> render_settings(ViewerState& state) {
     std::vector<Setting> settings = settings_of(state.active().settings.render);
     for (const PaneState& pane : state.panes) {
@@ -110,28 +112,27 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
         draw_setting(controls, custom_size_setting(state.rendering.size.custom));
     float percent = state.rendering.size.scale * 100.0f;
     if (controls.slider("scale", "Scale", percent, 100 * ranges::scale.low(), 100 * ranges::scale.high(),
-                        "%.0f %%", "Of width and height. Less is quicker."))
+                        "%.0f %%", "Scale of the rendered width and height. Smaller is faster."))
         state.rendering.size.scale = percent / 100.0f;
     const glm::ivec2 size = state.request_size(), fitting = state.fitting_size();
-    ImGui::TextDisabled("%d x %d pixels a pane", size.x, size.y);
-    controls.place(
-        "pixels",
-        "What is rendered now. No panel throws samples away, nor does a window of another size, once there "
-        "are some: the pictures are scaled, until the panes start anew.");
+    ImGui::TextDisabled("%d x %d pixels per pane", size.x, size.y);
+    controls.place("pixels", "Rendered size. A change of the panels or the window keeps samples: it scales the "
+                             "pictures until the panes "
+                             "restart.");
     if (size != fitting) {
-        ImGui::TextDisabled("%d x %d when they start anew", fitting.x, fitting.y);
-        controls.place("fitting_pixels",
-                       "What fits the panes as they are: taken when the camera moves, or all of them "
-                       "are restarted (R).");
+        ImGui::TextDisabled("%d x %d after restart", fitting.x, fitting.y);
+        controls.place(
+            "fitting_pixels",
+            "Size that fits the panes. It is used when the camera moves or the panes are restarted (R).");
     }
     if (const Camera& camera = state.camera.camera(); state.scene && !camera.is_orthographic) {
         float fov = camera.fov;
         if (controls.slider("fov", "Field of view", fov, 5, 120, "%.1f°",
-                            "Degrees that the camera sees across; Home is the scene's."))
+                            "Field of view, degrees, along the axis that the scene file states. Home resets it."))
             state.camera.set_fov(fov);
     }
     const std::string reset = std::string(icons().camera) + (*icons().camera ? "  " : "") + "Reset camera";
-    if (controls.button("reset_camera", reset.c_str(), "Back to the camera of the scene file (Home)."))
+    if (controls.button("reset_camera", reset.c_str(), "Returns to the camera of the scene file (Home)."))
         state.camera.go_home();
 }
 
@@ -141,13 +142,13 @@ void draw_run_buttons(Controls& controls, ViewerState& state) {
     const char* icon = state.rendering.paused ? icons().play : icons().pause;
     const std::string pause =
         std::string(icon) + (*icon ? "  " : "") + (state.rendering.paused ? "Resume" : "Pause");
-    if (controls.button("restart", restart.c_str(), "Renders all panes anew from the first sample (R).", width))
+    if (controls.button("restart", restart.c_str(), "Restarts all panes from the first sample (R).", width))
         state.wishes.restart = true;
     ImGui::SameLine();
-    if (controls.button("pause", pause.c_str(), "Stops and resumes the rendering (Space).", width))
+    if (controls.button("pause", pause.c_str(), "Stops or resumes rendering (Space).", width))
         state.rendering.paused = !state.rendering.paused;
     ImGui::SameLine();
-    if (controls.button("step", "Step", "Pauses, and adds one sample a pixel in every pane (.).", width)) {
+    if (controls.button("step", "Step", "Pauses, and adds one sample per pixel in every pane (.).", width)) {
         state.rendering.paused = true;
         ++state.wishes.steps;
     }
@@ -169,36 +170,36 @@ void draw_comparison_settings(Controls& controls, ViewerState& state) {
         panes.push_back(i);
         const PaneState& other = state.panes[i];
         const std::string pane = "pane " + std::to_string(i + 1) + ", ";
-        others.push_back(
-            {std::to_string(i + 1), pane + std::string(paper_name(other.settings.render.method)),
-             pane + std::string(long_name(other.settings.render.method)) + ", with the buffer that it shows."});
+        others.push_back({std::to_string(i + 1), pane + std::string(paper_name(other.settings.render.method)),
+                          pane + std::string(long_name(other.settings.render.method)) + ", with its buffer."});
     }
     if (with == the_reference)
         chosen = static_cast<int>(panes.size());
     panes.push_back(the_reference);
-    others.push_back({"reference", "the reference", "The picture that errors are measured against."});
+    others.push_back({"reference", "the reference", "The image that errors are measured against."});
     if (controls.choice("compare_with", "With", others, chosen,
-                        "What is compared with the active pane, and what that shows while B is held."))
+                        "Picture that the active pane is compared with. The pane shows it while B is held."))
         state.active().settings.comparison.with = panes[chosen];
 }
 
 void draw_reference_settings(Controls& controls, ViewerState& state) {
     const Reference* reference = state.companions.reference.get();
     std::string file = reference ? short_path(reference->name) : "";
-    if (controls.text("reference", "File", file, "an EXR file",
-                      "EXR file with the image to measure errors against (7, 8): type its name, or drop it on the "
-                      "window."))
+    if (controls.text(
+            "reference", "File", file, "an EXR file",
+            "EXR file with the image that errors are measured against (buffers 7 and 8). Type its name, or "
+            "drop it on the window."))
         state.wishes.open_reference = file;
     if (controls.button("reference_open", "Open ...", "Chooses an EXR file."))
         state.layout.choosing = FilePurpose::reference;
     ImGui::SameLine();
-    if (controls.button("reference_make", "Make ...", "Renders a reference of what the panes show."))
+    if (controls.button("reference_make", "Make ...", "Renders a reference for the view of the panes."))
         state.reference_making.show = true;
     if (!reference)
         return;
     const glm::ivec2 size(reference->image.width(), reference->image.height());
     if (size != state.request_size() &&
-        controls.button("reference_size", "Render its size", "Renders as many pixels as the reference has."))
+        controls.button("reference_size", "Render at its size", "Renders at the size of the reference."))
         state.rendering.size = {SizeChoice::Base::custom, 1, size};
 }
 
@@ -206,15 +207,13 @@ void draw_display_settings(Controls& controls, ViewerState& state) {
     for (const Setting& setting : settings_of(state.display.tone))
         if (setting.matters && setting.id != "exposure")
             draw_setting(controls, setting);
-    controls.toggle(
-        "mark_negative", "Mark negative", state.display.mark_negative,
-        "Pixels with a negative red, green or blue are blue (U). NaN is always magenta, infinity cyan.");
+    controls.toggle("mark_negative", "Mark negative", state.display.mark_negative,
+                    "Shows pixels with a negative component in blue (U). NaN is always magenta, infinity cyan.");
     controls.toggle("magnifier", "Magnifier", state.display.magnifier,
                     "Enlarges the pixels around the mouse, in all panes (L).");
-    controls.toggle(
-        "tiles", "Tiles", state.display.show_tiles,
-        "Which pixels share their paths in the newest pass (X). Lines closer than 4 units are left out: "
-        "zoom in with Ctrl + wheel.");
+    controls.toggle("tiles", "Tiles", state.display.show_tiles,
+                    "Draws the reuse sets of the newest pass (X). Lines appear once they are at least 4 screen "
+                    "units apart: zoom in with Ctrl + wheel.");
 }
 
 void draw_preset(Controls& controls, ViewerState& state) {
@@ -224,16 +223,16 @@ void draw_preset(Controls& controls, ViewerState& state) {
             list.push_back({std::string(preset.id), std::string(preset.label), std::string(preset.help)});
         return list;
     }();
-    const Preset& held_against = presets()[state.preset];
-    const bool is_pure = preset_of(state.active().settings) == state.preset;
-    const std::string shown = std::string(held_against.label) + (is_pure ? "" : ", changed");
-    int index = is_pure ? state.preset : -1; // what has changed can be chosen anew
+    const Preset& preset = presets()[state.preset];
+    const bool is_unchanged = preset_of(state.active().settings) == state.preset;
+    const std::string shown = std::string(preset.label) + (is_unchanged ? "" : ", changed");
+    int index = is_unchanged ? state.preset : -1; // -1: choosing a changed preset again resets it
     controls.label("Preset");
-    if (controls.bare_choice(
-            "preset", shown.c_str(), items, index, -FLT_MIN,
-            "Settings that belong together, for the active pane, or for all that have the same. Marked "
-            "is what differs from them. A right click here takes all changes back, as choosing it anew does.") ||
-        (!is_pure && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
+    if (controls.bare_choice("preset", shown.c_str(), items, index, -FLT_MIN,
+                             "Group of settings for the active pane, or for all panes if they are linked. A "
+                             "dot marks settings that differ from it. Right-click, or choose the preset again, "
+                             "to reset all changes.") ||
+        (!is_unchanged && ImGui::IsItemClicked(ImGuiMouseButton_Right))) {
         state.preset = index >= 0 ? index : state.preset;
         apply(presets()[state.preset], state.active().settings);
         state.share_settings();
@@ -242,20 +241,20 @@ void draw_preset(Controls& controls, ViewerState& state) {
 
 void draw_method_section(Controls& controls, ViewerState& state) {
     draw_preset(controls, state);
-    if (controls.toggle(
-            "linked", "Same for all", state.linked,
-            "All panes have these settings, and differ only in method and buffer. Otherwise these are the "
-            "active pane's (click one).") &&
+    if (controls.toggle("linked", "Link panes", state.linked,
+                        "All panes share these settings, and differ only in method, buffer and comparison. "
+                        "Otherwise the settings apply to the active pane; click a pane to make it active.") &&
         state.linked)
         state.share_settings();
     bool changed = draw_settings(controls, state, render_settings(state), true);
     std::vector<Setting> reconstruction = settings_of(state.active().settings.reconstruction);
-    std::string norm_help; // lives as long as the setting that refers to it
+    std::string norm_help; // the setting refers to it
     for (Setting& setting : reconstruction)
         if (setting.id == "norm")
-            setting.help = norm_help = std::string(setting.help) +
-                                       "\n\nPT and PR, which measure no gradients, show raw samples unless it is "
-                                       "smoothed or OIDN.";
+            setting.help = norm_help =
+                std::string(setting.help) +
+                "\n\nPT and PR measure no gradients: they show raw samples unless smoothed or "
+                "OIDN is chosen.";
     changed |= draw_settings(controls, state, reconstruction, true);
     for (const Setting& setting : settings_of(state.display.tone))
         if (setting.id == "exposure")
@@ -274,24 +273,25 @@ void draw_expert_section(Controls& controls, ViewerState& state) {
 void draw_contents(Controls& controls, ViewerState& state) {
     using Section = PanelSection;
     draw_run_buttons(controls, state);
-    if (begin_section(controls, state, Section::method, "section.method", "Method", "What is seldom left alone."))
+    if (begin_section(controls, state, Section::method, "section.method", "Method",
+                      "The most used settings of the method."))
         draw_method_section(controls, state);
-    if (begin_section(controls, state, Section::display, "section.display", "Display", "How pictures are seen."))
+    if (begin_section(controls, state, Section::display, "section.display", "Display", "Display of the pictures."))
         draw_display_settings(controls, state);
     if (state.compared_with(state.active_pane) != state.active_pane &&
         begin_section(controls, state, Section::compare, "section.compare", "Compare",
-                      "One pane against another."))
+                      "Comparison of the active pane with another one or the reference."))
         draw_comparison_settings(controls, state);
     if (begin_section(controls, state, Section::reference, "section.reference", "Reference",
-                      "What errors are measured against."))
+                      "Image that errors are measured against."))
         draw_reference_settings(controls, state);
     if (begin_section(controls, state, Section::size, "section.size", "Size and camera",
-                      "How many pixels are rendered, and from where."))
+                      "Rendered size and camera."))
         draw_size_settings(controls, state);
     if (begin_section(controls, state, Section::limits, "section.limits", "Limits",
-                      "When panes rest, and how they share the cores."))
+                      "When panes stop, and how they share the processor cores."))
         for (const Setting& setting : settings_of(state.rendering.pace))
-            if (setting.matters) // one limit: of what panes have alike
+            if (setting.matters) // hides the limit that does not apply
                 draw_setting(controls, setting);
     if (begin_section(controls, state, Section::expert, "more", "Expert", "All other settings of the method."))
         draw_expert_section(controls, state);

@@ -17,16 +17,16 @@ namespace {
 
 constexpr const char* ray_help[] = {
     "From the camera to the first surface.",
-    "To what a pixel shows, for the guides of reconstructions: from the camera on, through mirrors. No sample of "
-    "its own.",
-    "On from a vertex of a base path.",
-    "From a vertex of a base path to a point on a light: is anything in between?",
-    "On from a vertex of an offset path.",
-    "A new edge of an offset path, to a vertex of the base path or to a light: is anything in between?",
+    "Feature samples (albedo, normal, depth, roughness) for the denoiser: from the camera and through mirrors. "
+    "They are not part of the samples.",
+    "Next segment of a base path.",
+    "Occlusion between a vertex of a base path and a point on an emitter.",
+    "Next segment of an offset path.",
+    "Occlusion of an offset path's new edge, to a vertex of the base path or to an emitter.",
 };
 static_assert(std::size(ray_help) == ray_kind_count);
 
-/// 0 of 0 is 0.
+/// Returns part / whole; 0 if both are 0.
 double ratio(std::uint64_t part, std::uint64_t whole) {
     return static_cast<double>(part) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
 }
@@ -39,22 +39,23 @@ std::string decimal(double number) {
 
 StatisticGroup paths(const Snapshot& snapshot) {
     const Counters& c = snapshot.counters;
-    return {"Paths of " + std::string(paper_name(snapshot.settings.method)),
-            {{"spp", "samples a pixel", std::to_string(snapshot.spp), {}, "Passes over the whole picture so far."},
-             {"camera_paths",
-              "camera paths",
-              count_text(c.camera_paths),
-              {},
-              "Base paths traced in all passes, those of the columns and rows around tiles among them."},
-             {"path_vertices",
-              "mean vertices",
-              decimal(ratio(c.path_vertices, c.camera_paths)),
-              {},
-              "Surface vertices a base path: its mean length."}}};
+    return {
+        "Paths of " + std::string(paper_name(snapshot.settings.method)),
+        {{"spp", "samples per pixel", std::to_string(snapshot.spp), {}, "Passes over the whole picture so far."},
+         {"camera_paths",
+          "camera paths",
+          count_text(c.camera_paths),
+          {},
+          "Base paths traced in all passes, including those of the columns and rows around tiles."},
+         {"path_vertices",
+          "mean vertices",
+          decimal(ratio(c.path_vertices, c.camera_paths)),
+          {},
+          "Mean number of surface vertices per base path."}}};
 }
 
 StatisticGroup rays(const Counters& c) {
-    StatisticGroup group{"Rays", {{"rays", "all", count_text(c.all_rays()), {}, "Rays shot in all passes."}}};
+    StatisticGroup group{"Rays", {{"rays", "all", count_text(c.all_rays()), {}, "Rays traced in all passes."}}};
     for (std::size_t i = 0; i < c.rays.size(); ++i) {
         const std::string_view kind = to_string(static_cast<RayKind>(i));
         if (c.rays[i] > 0)
@@ -64,20 +65,20 @@ StatisticGroup rays(const Counters& c) {
     return group;
 }
 
-/// How often base paths were reused, as in [Bauszat 2017, Table 1].
+/// Returns the fractions of base paths that were reused, as in [Bauszat 2017, Table 1].
 StatisticGroup reuse(const Counters& c) {
     const std::uint64_t all = c.set_paths();
-    StatisticGroup group{
-        "Base paths",
-        {{"reused", "reused", count_text(c.reused_paths), ratio(c.reused_paths, all),
-          "Base paths that were shifted to the other pixels of their sampling set, of all in sampling sets: those "
-          "reused per gradient. Table 1 of [Bauszat 2017] has 14.8 to 19 %. A path counts once for every set that "
-          "it is in."},
-         {"skipped", "skipped", count_text(c.skipped_paths), ratio(c.skipped_paths, all),
-          "Base paths that carry light, and were ended by the roulette on reuse. Table 1 of [Bauszat 2017] has "
-          "81.6 to 85.3 % and no third kind: to be compared with skipped and dark together."},
-         {"dark", "dark", count_text(c.dark_paths), ratio(c.dark_paths, all),
-          "Base paths without any light that could be reused."}}};
+    StatisticGroup group{"Base paths",
+                         {{"reused", "reused", count_text(c.reused_paths), ratio(c.reused_paths, all),
+                           "Base paths that were shifted to the other pixels of their sampling set, as a "
+                           "fraction of all base paths in sampling sets. Compare with the paths reused per "
+                           "gradient in Table 1 of [Bauszat 2017], 14.8 to 19 %. A path counts once per set."},
+                          {"skipped", "skipped", count_text(c.skipped_paths), ratio(c.skipped_paths, all),
+                           "Base paths with light that Russian roulette on reuse ended. Table 1 of [Bauszat "
+                           "2017] has 81.6 to 85.3 % without a category for dark paths: compare it with "
+                           "skipped and dark together."},
+                          {"dark", "dark", count_text(c.dark_paths), ratio(c.dark_paths, all),
+                           "Base paths without light that could be reused."}}};
     return group;
 }
 
@@ -85,10 +86,10 @@ StatisticGroup shifts(const Counters& c) {
     const std::uint64_t all = c.shift_attempts();
     StatisticGroup group{"Shifts",
                          {{"shifts",
-                           "a camera path",
+                           "per camera path",
                            decimal(ratio(all, c.camera_paths)),
                            {},
-                           "Shifts of a base path to one other pixel, a camera path."}}};
+                           "Shifts of a base path to another pixel, per camera path."}}};
     for (std::size_t i = 0; i < c.shifts.size(); ++i) {
         const auto outcome = static_cast<ShiftOutcome>(i);
         const std::string_view name = to_string(outcome);
@@ -131,7 +132,7 @@ std::vector<StatisticGroup> statistics(const Snapshot& snapshot) {
 
 namespace {
 
-// Where a row's columns end, as fractions of its width.
+// Ends of a row's columns, as fractions of its width.
 constexpr float value_end = 0.60f;
 constexpr float share_end = 0.79f;
 
@@ -145,7 +146,7 @@ void draw_right_aligned(ImDrawList& list, float right, float y, ImU32 colour, co
     list.AddText({std::floor(right - ImGui::CalcTextSize(text.c_str()).x), y}, colour, text.c_str());
 }
 
-/// The share as a bar in the last column.
+/// Draws the share as a bar in the last column.
 void draw_bar(ImDrawList& list, ImVec2 min, ImVec2 max, double share, ImU32 colour) {
     const float filled = min.x + (max.x - min.x) * static_cast<float>(std::clamp(share, 0.0, 1.0));
     list.AddRectFilled(min, max, colours::line);
@@ -178,9 +179,10 @@ void draw_refused(Controls& controls, const Snapshot& snapshot) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
-    controls.place("statistics.refused",
-                   "Pass and pixel count from 0. With the seed, the first of them can be traced "
-                   "again.");
+    controls.place(
+        "statistics.refused",
+        "Pass and pixel are counted from 0. With them and the seed, the path inspector can trace the first "
+        "sample again.");
 }
 
 void draw_contents(Controls& controls, const Snapshot& snapshot) {

@@ -20,10 +20,10 @@ void draw_toast(const ScreenRect& where, Controls& controls, ViewerState& state)
         return;
     }
     const float font = ImGui::GetFontSize(), pad = std::floor(font * 0.6f);
-    const float widest = where.size().x - 4 * pad;
-    if (widest < font)
+    const float wrap_width = where.size().x - 4 * pad;
+    if (wrap_width < font)
         return;
-    const ImVec2 size = ImGui::CalcTextSize(toast.text.c_str(), nullptr, false, widest);
+    const ImVec2 size = ImGui::CalcTextSize(toast.text.c_str(), nullptr, false, wrap_width);
     const ImVec2 min(std::floor((where.min.x + where.max.x - size.x) * 0.5f) - pad,
                      where.max.y - size.y - 4 * pad - font);
     const ImVec2 max(min.x + size.x + 2 * pad, min.y + size.y + 2 * pad);
@@ -31,7 +31,7 @@ void draw_toast(const ScreenRect& where, Controls& controls, ViewerState& state)
     list.AddRectFilled(min, max, colours::overlay, pad * 0.6f);
     list.AddRect(min, max, colours::overlay_accent, pad * 0.6f);
     list.AddText(ImGui::GetFont(), font, {min.x + pad, min.y + pad}, colours::overlay_text, toast.text.c_str(),
-                 nullptr, widest);
+                 nullptr, wrap_width);
     controls.place_rect("toast", {min.x, min.y}, {max.x, max.y});
 }
 

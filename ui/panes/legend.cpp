@@ -17,10 +17,10 @@ namespace tessera {
 
 namespace {
 
-// These are the colours of canvas.frag.glsl.
+// The same colours as in canvas.frag.glsl.
 constexpr glm::vec3 zero_colour(0.10f, 0.10f, 0.11f), plus_colour(1.00f, 0.66f, 0.20f),
     minus_colour(0.26f, 0.62f, 1.00f);
-constexpr int signed_steps = 16; // to each side of zero: sRGB's curve is no line
+constexpr int signed_steps = 16; // to each side of zero, because the sRGB curve is not linear
 
 ImU32 packed(const glm::vec3& c) {
     return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1});
@@ -35,12 +35,12 @@ void draw_colours(ImDrawList& list, glm::vec2 min, glm::vec2 max, const std::vec
     }
 }
 
-constexpr float spot_width = 0.8f; // of an entry's colour, with the space behind it; in sizes of the font
+constexpr float spot_width = 0.8f; // of an entry's spot and the space after it, font sizes
 
-/// Where entries go, row by row.
+/// Positions of entries in rows.
 struct EntryPlaces {
-    std::vector<glm::vec2> at; // from the first one's top left
-    glm::vec2 size{0};
+    std::vector<glm::vec2> at; // upper left corners, relative to the first one's
+    glm::vec2 size{0};         // of all rows
 };
 
 EntryPlaces places_of(const std::vector<LegendEntry>& entries, float widest) {
@@ -71,13 +71,12 @@ void draw_entries(ImDrawList& list, glm::vec2 min, const std::vector<LegendEntry
 } // namespace
 
 Legend false_colour_legend(Buffer buffer, const ValueRange& range) {
-    return {
-        legend_text(buffer, range),
-        std::string(info(buffer).help) +
-            "\n\nAll panes that show it have this range. Drag the colours' left or right half to move that end "
-            "of it; double click: back to the range that fits the first pictures.",
-        {std::begin(false_colours), std::end(false_colours)},
-        {}};
+    return {legend_text(buffer, range),
+            std::string(info(buffer).help) + "\n\nAll panes with this buffer share the range. Drag the left or "
+                                             "right half of the colours to move that "
+                                             "end. Double-click for the automatic range.",
+            {std::begin(false_colours), std::end(false_colours)},
+            {}};
 }
 
 Legend signed_legend(const std::string& about, const std::string& unit, float scale, float exposure) {
@@ -85,7 +84,7 @@ Legend signed_legend(const std::string& about, const std::string& unit, float sc
     char numbers[64];
     std::snprintf(numbers, sizeof numbers, ": %+.3g .. %+.3g", -end, end);
     Legend legend{about + numbers + (unit.empty() ? "" : " ") + unit,
-                  "Luminance: blue below zero, orange above. The exposure (+ and -) moves the ends.",
+                  "Luminance: blue below zero, orange above. The exposure (keys + and -) moves the ends.",
                   {},
                   {}};
     for (int i = -signed_steps; i <= signed_steps; ++i) {
@@ -97,7 +96,7 @@ Legend signed_legend(const std::string& about, const std::string& unit, float sc
 }
 
 Legend outcome_legend() {
-    Legend legend{"outcomes of shifts to a pixel", info(Buffer::outcomes).help, {}, {}};
+    Legend legend{"outcomes of shifts to the pixel", info(Buffer::outcomes).help, {}, {}};
     legend.help += '\n';
     for (int i = 0; i < shift_outcome_count; ++i) {
         const auto outcome = static_cast<ShiftOutcome>(i);
@@ -146,17 +145,17 @@ bool has_picture(const Showing& showing, const PaneTools& tools) {
     return has(showing.pane) && (showing.subtrahend < 0 || has(showing.subtrahend));
 }
 
-/// The legend of gradients, or of a difference, which has a unit if both its buffers have.
+/// Returns the legend of gradients, or of a difference, which has a unit if both buffers are the same.
 Legend signed_legend_of(const Showing& showing, const ViewerState& state) {
     const BufferInfo& about = info(buffer_of(showing.pane, state));
     if (showing.subtrahend < 0)
         return signed_legend(about.id, about.unit, about.unit_scale, state.display.tone.of_differences());
-    const bool alike = buffer_of(showing.subtrahend, state) == about.buffer;
-    return signed_legend("difference", alike ? about.unit : "", alike ? about.unit_scale : 1,
+    const bool same_buffer = buffer_of(showing.subtrahend, state) == about.buffer;
+    return signed_legend("difference", same_buffer ? about.unit : "", same_buffer ? about.unit_scale : 1,
                          state.display.tone.of_differences());
 }
 
-/// First hits of where the camera was are shown until there are others.
+/// Whether first hits of a previous camera are shown, until new ones are traced.
 bool is_of_earlier_view(const Showing& showing, const ViewerState& state) {
     const auto has_first_hits = [&](int pane) {
         return pane >= 0 && family(buffer_of(pane, state)) == BufferFamily::first_hit;
@@ -165,7 +164,7 @@ bool is_of_earlier_view(const Showing& showing, const ViewerState& state) {
            (has_first_hits(showing.pane) || has_first_hits(showing.subtrahend));
 }
 
-/// The legend of a picture; one without text if it needs none.
+/// Returns the legend of a picture; one without text if it needs none.
 Legend legend_of(const Showing& showing, const PaneTools& tools) {
     const Buffer buffer = buffer_of(showing.pane, tools.state);
     Legend legend;
@@ -178,7 +177,7 @@ Legend legend_of(const Showing& showing, const PaneTools& tools) {
     if (is_of_earlier_view(showing, tools.state)) {
         legend.text = (legend.text.empty() ? std::string(info(buffer).id) : legend.text) + "  of an earlier view";
         legend.help += std::string(legend.help.empty() ? "" : "\n\n") +
-                       "The camera or the size has changed since; what it sees now is being traced.";
+                       "The camera or the size has changed; the new first hits are being traced.";
     }
     return legend;
 }
@@ -193,8 +192,8 @@ ValueRange HeldRange::at(float x) const {
 void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pane, PaneTools& tools) {
     const ViewerState& state = tools.state;
     const Sides sides = sides_of(state, pane);
-    const bool same = sides.left.subtrahend == sides.right.subtrahend &&
-                      buffer_of(sides.left.pane, state) == buffer_of(sides.right.pane, state);
+    const bool same_colours = sides.left.subtrahend == sides.right.subtrahend &&
+                              buffer_of(sides.left.pane, state) == buffer_of(sides.right.pane, state);
     const bool left_is_seen = !sides.divided() || state.layout.wipe > 0;
     const bool right_is_seen = sides.divided() && state.layout.wipe < 1;
     drawn_ = {};
@@ -203,8 +202,8 @@ void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pan
         drawn_[0] = draw_one(room, id + ".legend", sides.left, false, tools);
     const ScreenRect& left = drawn_[0].place.whole;
     if (left.size().y > 0 && room.size().x < 2 * widest_legend * ImGui::GetFontSize())
-        room.max.y = left.min.y; // above it
-    if (right_is_seen && !(same && left_is_seen))
+        room.max.y = left.min.y; // above the left legend
+    if (right_is_seen && !(same_colours && left_is_seen))
         drawn_[1] = draw_one(room, id + ".right_legend", sides.right, true, tools);
 }
 
@@ -217,7 +216,7 @@ PaneLegends::Drawn PaneLegends::draw_one(const ScreenRect& rect, const std::stri
         return {};
     LegendPlace place = draw_legend(rect, id, legend, at_right, tools.controls);
     if (colour_map(showing, tools.state) != ColourMap::false_colour)
-        place.bar = {}; // only the range of these can be dragged
+        place.bar = {}; // only false colours can be dragged
     return {place, buffer_of(showing.pane, tools.state)};
 }
 

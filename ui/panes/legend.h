@@ -15,65 +15,68 @@
 
 namespace tessera {
 
-/// What one colour stands for.
+/// A colour and its meaning.
 struct LegendEntry {
     std::string name;
     ImU32 colour;
 };
 
-/// What colours stand for: in words, and in a bar of them or one by one.
+/// Explains colours by a caption and either a colour bar or entries.
 struct Legend {
-    std::string text;
+    std::string text; ///< caption
     std::string help;
-    std::vector<glm::vec3> colours; ///< of the bar, evenly spaced; empty: there is none
+    std::vector<glm::vec3> colours; ///< of the bar, evenly spaced; empty: no bar
     std::vector<LegendEntry> entries;
 };
-inline constexpr float widest_legend = 24; ///< that has entries: in sizes of the font
+inline constexpr float widest_legend = 24; ///< maximum width of the entries, in font sizes
 
-/// The legend of a buffer's false colours, whose bar is for dragging.
+/// Returns the legend of a buffer's false colours, whose bar can be dragged.
 Legend false_colour_legend(Buffer buffer, const ValueRange& range);
-/// The legend of +/- colours at an exposure in stops. `about` says what the numbers are, which are shown times
-/// `scale`.
+/// Returns the legend of signed colours.
+/// @param about     name of the values
+/// @param scale     factor from values to displayed numbers
+/// @param exposure  stops
 Legend signed_legend(const std::string& about, const std::string& unit, float scale, float exposure);
 
-/// The legend of the outcomes of shifts.
+/// Returns the legend of shift outcomes.
 Legend outcome_legend();
 
-/// Where a legend lies; empty: it was not drawn, or has no bar.
+/// Position of a drawn legend; empty rectangles: not drawn, or no bar.
 struct LegendPlace {
     ScreenRect whole, bar;
 };
 
-/// Draws a legend in a lower corner of a picture if there is room: the left one, or the right. Noted as `id`. To
-/// be called after the item that the picture is.
+/// Draws a legend in the lower left or right corner of a picture if there is room, and registers it as `id`. To
+/// be called after the picture's item.
 LegendPlace draw_legend(const ScreenRect& picture, const std::string& id, const Legend& legend, bool at_right,
                         Controls& controls);
 
-/// An end of a false colours' range that the mouse holds.
+/// An end of a false-colour range that the mouse drags.
 struct HeldRange {
     Buffer buffer = Buffer::reconstruction;
-    bool high = false;
-    float from = 0;   ///< where the mouse took hold, screen units
-    float length = 1; ///< of the legend's colours
-    ValueRange range; ///< as it was then
+    bool high = false; ///< the upper end
+    float from = 0;    ///< x of the mouse at the start, screen units
+    float length = 1;  ///< of the colour bar, screen units
+    ValueRange range;  ///< at the start
 
-    /// The range when the mouse is at `x`.
+    /// Returns the range for a mouse at `x`, screen units.
     ValueRange at(float x) const;
 };
 
-/// The legends over a pane's picture: of what is shown on each side of its line that is on the screen, in that
-/// side's corner. Two sides with the same colours have one. Pictures of an earlier view are marked here, too.
+/// The legends over a pane's picture, one in the corner of each visible side. Two sides with the same colours
+/// share one. Legends also mark pictures of an earlier view.
 class PaneLegends {
 public:
-    /// `id` of the pane. To be called after the item that the picture is.
+    /// Draws the legends. To be called after the picture's item.
+    /// @param id  of the pane
     void draw(const PictureFrame& frame, const std::string& id, int pane, PaneTools& tools);
 
-    /// What a point of the screen takes hold of; empty: no colours lie there, or none that can be moved.
+    /// Returns the range end that a drag from this screen point moves; empty: there is no false-colour bar.
     std::optional<HeldRange> held_at(glm::vec2 point, const PaneTools& tools) const;
 
 private:
     struct Drawn {
-        LegendPlace place; // without a bar: nothing to take hold of
+        LegendPlace place; // without a bar if it cannot be dragged
         Buffer buffer = Buffer::reconstruction;
     };
     static Drawn draw_one(const ScreenRect& rect, const std::string& id, const Showing& showing, bool at_right,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float zoom_a_notch = 1.25f;
 constexpr float dolly_a_notch = 0.88f;
-constexpr float dolly_a_pane = 6.0f; // right drag over the pane's height: distance times e^6
+constexpr float dolly_a_pane = 6.0f; // a right drag over the pane's height multiplies the distance by e^6
 
 void drag_picture(const PaneMouse& mouse, glm::ivec2 image_size, glm::ivec2 pane_size, ViewerState& state) {
     state.display.view.pan(mouse.position - mouse.previous, image_size, pane_size);

@@ -34,19 +34,19 @@ const std::vector<ChoiceItem>& buffer_items() {
     return items;
 }
 
-/// Returns the width of the controls for tile and norm.
+/// Returns the width of the controls for tile and reconstruction.
 float extras_width(const PaneSettings& settings) {
     const float font = ImGui::GetFontSize(), spacing = ImGui::GetStyle().ItemSpacing.x;
     return (reuses_paths(settings.render.method) ? font * 5.5f + spacing : 0) + font * 7 + spacing;
 }
 
-/// Draws the choices of a pane's tile and norm. A choice unlinks the panes, because it is for this pane alone.
+/// Draws the choices of a pane's tile and reconstruction. A choice is for this pane alone, and unlinks the panes.
 void draw_extras(const std::string& id, Controls& controls, ViewerState& state, PaneState& pane) {
     static const std::vector<ChoiceItem> tiles = [] {
         std::vector<ChoiceItem> list;
         for (int edge = 1; edge <= most_tile; ++edge)
             list.push_back({std::to_string(edge), "tile " + std::to_string(edge),
-                            "Edge of a tile, in pixels, whose paths are reused."});
+                            "Edge of this pane's tiles, pixels. The pixels of a tile reuse each other's paths."});
         return list;
     }();
     static const std::vector<ChoiceItem> norms = choice_items(norm_choices());
@@ -55,17 +55,16 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
     if (reuses_paths(pane.settings.render.method)) {
         int tile = pane.settings.render.tile - 1;
         ImGui::SameLine();
-        changed |=
-            controls.bare_choice((id + ".tile").c_str(), tiles[tile].label.c_str(),
-                                 tiles, tile, font * 5.5f, "Edge of this pane's tiles, pixels.");
+        changed |= controls.bare_choice((id + ".tile").c_str(), tiles[tile].label.c_str(), tiles, tile,
+                                        font * 5.5f, "Edge of this pane's tiles, pixels.");
         pane.settings.render.tile = tile + 1;
     }
     const bool solves = has_gradients(pane.settings.render.method);
     Norm& chosen = pane.settings.reconstruction.norm;
     int norm = static_cast<int>(applied(chosen, solves));
     ImGui::SameLine();
-    if (controls.bare_choice((id + ".norm").c_str(), norms[norm].label.c_str(), norms,
-                             norm, font * 7, "How this pane's picture is reconstructed.")) {
+    if (controls.bare_choice((id + ".norm").c_str(), norms[norm].label.c_str(), norms, norm, font * 7,
+                             "Reconstruction of this pane's picture.")) {
         chosen = applied(all_norms[norm], solves);
         changed = true;
     }
@@ -73,7 +72,7 @@ void draw_extras(const std::string& id, Controls& controls, ViewerState& state, 
         state.linked = false;
 }
 
-/// Draws the button that tells whether the pane denoises, and switches it.
+/// Draws the button that shows whether the pane denoises, and switches it.
 void draw_denoiser_button(const std::string& id, const char* label, Controls& controls, ViewerState& state,
                           int pane) {
     const bool is_denoised = denoises(applied_norm(state.panes[pane].settings));
@@ -83,9 +82,9 @@ void draw_denoiser_button(const std::string& id, const char* label, Controls& co
     const bool clicked = ImGui::Button((std::string(label) + "##" + id).c_str());
     ImGui::PopStyleColor(2); // the tooltip has the usual colours
     controls.place((id + ".denoised").c_str(),
-                   is_denoised ? "The picture is denoised, which biases it at few samples; a click switches to raw "
+                   is_denoised ? "The picture is denoised, which biases it at few samples. Click to switch to raw "
                                  "samples (Ctrl+D for the active pane)."
-                               : "The picture is made of raw samples, without a denoiser; a click denoises it "
+                               : "The picture is made of raw samples, without a denoiser. Click to denoise it "
                                  "(Ctrl+D for the active pane).");
     if (clicked)
         toggle_denoiser(state, pane);
@@ -129,13 +128,12 @@ void draw_pane_header(int index, Controls& controls, ViewerState& state) {
     const bool has_more = label != paper_name(pane.settings.render.method);
     const std::string& shown = has_more ? label : method_items()[method].label;
     if (controls.bare_choice((id + ".method").c_str(), shown.c_str(), method_items(), method, method_width,
-                             "How this pane's light paths are sampled (M)."))
+                             "Method of this pane (M)."))
         pane.settings.render.method = all_methods[method];
     ImGui::SameLine();
     int buffer = static_cast<int>(pane.settings.buffer);
-    if (controls.bare_choice((id + ".buffer").c_str(),
-                             buffer_items()[buffer].label.c_str(), buffer_items(),
-                             buffer, buffer_width, "What this pane shows (1 to 8: all panes)."))
+    if (controls.bare_choice((id + ".buffer").c_str(), buffer_items()[buffer].label.c_str(), buffer_items(),
+                             buffer, buffer_width, "Buffer that this pane shows (1 to 8: all panes)."))
         pane.settings.buffer = all_buffers[buffer];
     draw_denoiser_button(id, samples.c_str(), controls, state, index);
     if (has_extras)

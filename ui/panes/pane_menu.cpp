@@ -40,7 +40,7 @@ void draw_pane_menu(int pane, const PictureFrame& frame, bool is_click, PaneTool
     if (ImGui::MenuItem("Look at this", "double click", false, point.has_value()) && point)
         tools.state.camera.focus(*point);
     tools.controls.place("pane_menu/Look at this",
-                         "Turns the camera to what is under the mouse, and orbits about it.");
+                         "Turns the camera to the surface under the mouse, and orbits around it.");
     for (const char* name : pane_menu_items()) {
         if (name)
             draw_menu_item("pane_menu", action_named(name), tools.controls, tools.state);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 #include <glm/vec2.hpp>
@@ -19,7 +20,7 @@ namespace tessera {
 
 namespace {
 
-// By how much a pane is ahead when it is said to wait: passes in turn keep less of a distance.
+// Minimum lead of a pane that waits. Panes that take turns differ by less.
 constexpr double least_wait = 2; // seconds
 constexpr double least_wait_spp = 3;
 
@@ -28,27 +29,19 @@ bool is_done(const Snapshot& snapshot, const Pace& pace) {
            (pace.seconds_limit > 0 && snapshot.seconds >= pace.seconds_limit);
 }
 
-/// The pane's picture of the request that is out; null: there is none yet.
+/// Returns the pane's snapshot of the present request; null: there is none, or only a preview.
 const Snapshot* snapshot_of_request(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
     return s && s->generation == pane.generation && !s->coarse() ? s : nullptr;
 }
 
-/// Whether nothing more will come of the pane, whatever the others do.
+/// Whether the pane renders no further passes.
 bool is_at_rest(const PaneState& pane, const Pace& pace) {
     const Snapshot* s = snapshot_of_request(pane);
     return pane.failed || (s && is_done(*s, pace));
 }
 
-/// "3:10".
-std::string minutes(double seconds) {
-    char text[32];
-    const int whole = static_cast<int>(seconds);
-    std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
-    return text;
-}
-
-/// "reconstruction of pass 11, 14 steps in 0.021 s".
+/// Returns "reconstruction of pass 11, 14 steps in 0.021 s".
 std::string reconstruction_text(const Snapshot& snapshot) {
     const Reconstruction& made = *snapshot.reconstruction;
     char text[96];
@@ -57,18 +50,18 @@ std::string reconstruction_text(const Snapshot& snapshot) {
     return text;
 }
 
-/// "   relMSE 0.0123": of the newest picture that was measured; without a reference "   samples' relMSE ~0.0123",
-/// as it is estimated; empty: there is none yet.
+/// Returns "relMSE 0.0123", measured for the newest picture, or without a reference "estimated relMSE 0.0123".
+/// Empty: there is no error yet.
 std::string error_text(const ViewerState& state, const PaneState& pane) {
     const PaneChart& chart = state.charts.of(pane);
     if (chart.curves.empty() || chart.generation != pane.generation ||
         chart.reference != state.companions.reference)
         return "";
-    return fmt::format("   {}{:.3g}", chart.reference ? "relMSE " : "samples' relMSE ~",
+    return fmt::format("{} {:.3g}", chart.reference ? "relMSE" : "estimated relMSE",
                        chart.curves.back().points().back().error);
 }
 
-/// "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a share before the first step.
+/// Returns "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a percentage before the first step.
 std::string under_way_text(const ReconstructionUnderWay& now) {
     char share[16] = "", text[96];
     if (now.share > 0)
@@ -78,52 +71,84 @@ std::string under_way_text(const ReconstructionUnderWay& now) {
     return text;
 }
 
-} // namespace
+/// An item of the status line.
+struct StatusItem {
+    const char* label; ///< in the tooltip; empty: `text` needs none
+    std::string text;
+};
 
-std::string status_text(const ViewerState& state, int index) {
+/// Returns the pane's state for the status line; empty: it renders.
+std::string activity_text(const ViewerState& state, int index, bool is_answered) {
     const PaneState& pane = state.panes[index];
-    std::string line = pane_label(state, index);
+    if (pane.failed)
+        return "failed: see the messages (F2)";
+    if (state.rendering.paused)
+        return "paused";
+    if (is_in_long_first_pass(pane))
+        return fmt::format("{} {} %", is_answered ? "first pass" : "preview",
+                           static_cast<int>(100 * pane.pass_share));
+    if (!is_answered)
+        return "starting";
+    if (is_done(*pane.snapshot, state.rendering.pace))
+        return "done";
+    return waiting_text(state, index);
+}
+
+/// Returns the items of the status line in order. The state comes first, because a narrow pane cuts off the end.
+std::vector<StatusItem> status_items(const ViewerState& state, int index) {
+    const PaneState& pane = state.panes[index];
+    std::vector<StatusItem> items{{"Method", pane_label(state, index)}};
+    const auto add = [&](const char* label, std::string text) {
+        if (!text.empty())
+            items.push_back({label, std::move(text)});
+    };
     const bool reconstructs_long = state.reconstructs_long(pane);
     const bool is_answered = pane.snapshot && pane.snapshot->generation == pane.generation;
-    // What it does comes first: a narrow pane cuts the end off.
-    if (!state.scene)
-        return line + (state.scene_info.loading.empty() ? "   no scene" : "   waiting for the scene");
-    if (pane.failed)
-        line += "   failed: see the messages (F2)";
-    else if (state.rendering.paused)
-        line += "   paused";
-    else if (is_in_long_first_pass(pane))
-        line += fmt::format("   {} {} %", is_answered ? "first pass" : "first look",
-                            static_cast<int>(100 * pane.pass_share));
-    else if (!is_answered)
-        line += "   starting";
-    else if (is_done(*pane.snapshot, state.rendering.pace))
-        line += "   done";
-    else if (const std::string waiting = waiting_text(state, index); !waiting.empty())
-        line += "   " + waiting;
+    if (!state.scene) {
+        add("State", state.scene_info.loading.empty() ? "no scene" : "waiting for the scene");
+        return items;
+    }
+    add("State", activity_text(state, index, is_answered));
     if (!is_answered)
-        return line;
+        return items;
     if (reconstructs_long)
-        line += "   " + under_way_text(*pane.reconstructing);
+        add("Reconstruction", under_way_text(*pane.reconstructing));
     const Snapshot& snapshot = *pane.snapshot;
     const double rate =
         snapshot.seconds > 0 ? static_cast<double>(snapshot.counters.all_rays()) / snapshot.seconds : 0;
-    char text[160];
-    std::snprintf(text, sizeof text, "   %d spp   %.2f s   %.1f Mrays/s", snapshot.spp, snapshot.seconds,
-                  rate * 1e-6);
-    line += text + error_text(state, pane);
+    add("Samples per pixel", fmt::format("{} spp", snapshot.spp));
+    add("Wall time of this pane's passes", fmt::format("{:.2f} s", snapshot.seconds));
+    add("Rays per second", fmt::format("{:.1f} Mrays/s", rate * 1e-6));
+    add("Error", error_text(state, pane));
     if (snapshot.coarse())
-        line += "   first look";
+        add("Picture", "preview");
     else if (!reconstructs_long && snapshot.reconstruction &&
              applied(snapshot.reconstructed_with.norm, has_gradients(snapshot.settings.method)) != Norm::none)
-        line += "   " + reconstruction_text(snapshot);
+        add("Reconstruction (pass, solver steps, wall time)", reconstruction_text(snapshot));
     if (const double redistributed =
             snapshot.reconstruction && !snapshot.coarse() ? snapshot.reconstruction->redistributed : 0;
         redistributed > 0)
-        line += fmt::format("   fireflies: {:.3g} % redistributed", 100 * redistributed);
+        add("", fmt::format("fireflies: {:.3g} % redistributed", 100 * redistributed));
     if (snapshot.counters.refused_samples > 0)
-        line += "   " + std::to_string(snapshot.counters.refused_samples) + " samples refused";
+        add("NaN or infinite", fmt::format("{} invalid samples", snapshot.counters.refused_samples));
+    return items;
+}
+
+} // namespace
+
+std::string status_text(const ViewerState& state, int pane) {
+    std::string line;
+    for (const StatusItem& item : status_items(state, pane))
+        line += (line.empty() ? "" : "   ") + item.text;
     return line;
+}
+
+std::string status_help(const ViewerState& state, int pane) {
+    std::string lines;
+    for (const StatusItem& item : status_items(state, pane))
+        lines +=
+            fmt::format("{}{}{}{}", lines.empty() ? "" : "\n", item.label, *item.label ? ": " : "", item.text);
+    return lines;
 }
 
 std::string waiting_text(const ViewerState& state, int pane) {
@@ -142,11 +167,9 @@ std::string waiting_text(const ViewerState& state, int pane) {
     const double own = had(state.panes[pane]);
     if (is_at_rest(*last, state.rendering.pace) || own - had(*last) < (by_time ? least_wait : least_wait_spp))
         return "";
-    const auto text = [&](double amount) {
-        return by_time ? minutes(amount) : std::to_string(static_cast<int>(amount));
-    };
-    return "waiting for pane " + std::to_string(last - state.panes.begin() + 1) + " (" + text(had(*last)) +
-           " of " + text(own) + (by_time ? "" : " spp") + "; R: all anew)";
+    return fmt::format("equal {}: waiting for pane {} ({} of {} {})", by_time ? "time" : "samples",
+                       last - state.panes.begin() + 1, static_cast<int>(had(*last)), static_cast<int>(own),
+                       by_time ? "s" : "spp");
 }
 
 std::string value_text(const Rgb& value, ColourMap map, const BufferInfo& about) {
@@ -186,13 +209,13 @@ std::string cursor_help(const Showing& showing, const ViewerState& state) {
     const BufferInfo& about = info(buffer_of(showing.pane, state));
     std::string numbers = "its red, green and blue, and its luminance (Y)";
     if (colour_map(showing, state) == ColourMap::false_colour)
-        numbers = "its number" + (*about.unit ? " in " + std::string(about.unit) : "");
+        numbers = "its value" + (*about.unit ? " in " + std::string(about.unit) : "");
     else if (colour_map(showing, state) == ColourMap::direction)
         numbers = "its x, y and z";
     else if (colour_map(showing, state) == ColourMap::own)
-        numbers = "the shares of the shifts to it that ended so, the largest first";
+        numbers = "the percentages of outcomes of the shifts to it, the largest first";
     return "Pixel under the mouse, counted from the top left, and " + numbers + ".\n\n" +
-           (showing.subtrahend >= 0 ? label_of(showing, state) + ": the difference of their numbers.\n\n" : "") +
+           (showing.subtrahend >= 0 ? label_of(showing, state) + ": difference of their values.\n\n" : "") +
            about.label + ": " + about.help;
 }
 
@@ -207,7 +230,7 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
     ImGui::PopFont();
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float left = std::max(at.x + room - width, at.x); // of the numbers
+    const float left = std::max(at.x + room - width, at.x); // of the cursor text
     list.PushClipRect(at, {cursor.empty() ? at.x + room : left - height * 0.5f, at.y + height * 1.3f}, true);
     list.AddText(at, colours::dim_text, status.c_str());
     list.PopClipRect();
@@ -215,11 +238,7 @@ void draw_status(const std::string& id, int pane, const ViewerState& state, cons
         list.AddText(mono_font(), ImGui::GetFontSize(), {left, at.y}, colours::text, cursor.c_str());
 
     ImGui::Dummy({room, height});
-    const std::string help = // a narrow pane cuts the line off
-        status + "\n\nMethod, and why it rests; samples a pixel; wall seconds of this pane's own passes; rays a "
-                 "second; the pass that the picture on show is reconstructed from, the steps of its solver and "
-                 "their wall seconds, or a reconstruction that takes long.";
-    controls.place((id + ".status").c_str(), help.c_str());
+    controls.place((id + ".status").c_str(), status_help(state, pane).c_str());
     if (cursor.empty())
         return;
     ImGui::SetCursorScreenPos({left, at.y});

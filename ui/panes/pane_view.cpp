@@ -22,7 +22,7 @@ constexpr ImGuiWindowFlags pane_flags =
     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
     ImGuiWindowFlags_NoBackground; // Gui clears the screen in the panels' colour
 
-// Words in the middle of a place that has no picture, wrapped to its width.
+/// Draws text in the middle of an area without a picture, wrapped to its width.
 void draw_notice(const ScreenRect& where, const std::string& text) {
     const float width = where.size().x - ImGui::GetFontSize();
     if (text.empty() || width < ImGui::GetFontSize())
@@ -33,13 +33,13 @@ void draw_notice(const ScreenRect& where, const std::string& text) {
                                         colours::overlay_dim_text, text.c_str(), nullptr, width);
 }
 
-// What lies to the left and to the right of a wipe's line.
+/// Returns the areas to the left and to the right of a wipe's line.
 std::array<ScreenRect, 2> side_rects(const PictureFrame& frame, const ViewerState& state) {
     const float middle = std::floor(glm::mix(frame.rect.min.x, frame.rect.max.x, state.layout.wipe));
     return {{{frame.rect.min, {middle, frame.rect.max.y}}, {{middle, frame.rect.min.y}, frame.rect.max}}};
 }
 
-/// What is to be said in the place of a picture; empty: there is one.
+/// Returns the text to show in place of a missing or black picture; empty: none.
 std::string notice_of(const Showing& showing, const PaneTools& tools) {
     const ViewerState& state = tools.state;
     if (const std::string missing = missing_text(showing, state); !missing.empty() || !state.scene)
@@ -49,14 +49,14 @@ std::string notice_of(const Showing& showing, const PaneTools& tools) {
     const PaneState& pane = state.panes[showing.pane];
     if (pane.failed)
         return "The render failed: " + pane.failure +
-               "\n\nAnother size, setting or scene starts it anew, and so does R.";
+               "\n\nPress R to restart it, or change size, settings or scene.";
     const bool is_done = pane.snapshot && pane.snapshot->generation == pane.generation && !pane.snapshot->coarse();
     if (!is_done || showing.subtrahend >= 0 || !tools.images[showing.pane].is_black())
         return "";
     if (state.scene->triangle_count() == 0)
         return "The scene is empty: nothing in it has a surface.";
-    return "The camera sees no light.\n\nHome: back to the camera of the file. The buffer Albedo shows what it sees, "
-           "without light.";
+    return "The camera sees no light.\n\nHome returns to the camera of the scene file. The buffer Albedo shows "
+           "the surfaces without light.";
 }
 
 std::string pane_id(int index) {
@@ -93,7 +93,7 @@ void PaneView::take_input(int index, const ScreenRect& where, PaneTools& tools) 
 
 void PaneView::draw(int index, PaneTools& tools) {
     const std::string id = pane_id(index);
-    ImGui::Begin(id.c_str(), nullptr, pane_flags); // goes on where it was left
+    ImGui::Begin(id.c_str(), nullptr, pane_flags); // continues the window of take_input()
     frame_.placement = tools.state.display.view.place(tools.state.request_size(), frame_.pixels);
     draw_renditions(index, frame_, tools);
     draw_overlays(index, id, frame_, tools);
@@ -101,7 +101,7 @@ void PaneView::draw(int index, PaneTools& tools) {
     ImGui::End();
 }
 
-/// Takes the room that the pane has for its picture, as an item.
+/// Makes the item of the picture, which fills the pane except for the status line.
 PictureFrame PaneView::place_picture(int index, const std::string& id, PaneTools& tools) {
     PictureFrame frame;
     frame.pixels_a_unit = ImGui::GetIO().DisplayFramebufferScale.x;
@@ -120,7 +120,7 @@ PictureFrame PaneView::place_picture(int index, const std::string& id, PaneTools
     return frame;
 }
 
-/// Moves the picture once, so that the slow motion's tile is seen well.
+/// Zooms the picture once to the slow motion's tile.
 void PaneView::frame_tile(int index, const PictureFrame& frame, ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     if (!slow.frames || !shows_slow_motion(index, state))
@@ -128,7 +128,7 @@ void PaneView::frame_tile(int index, const PictureFrame& frame, ViewerState& sta
     slow.frames = false;
     if (!slow.view_before)
         slow.view_before = state.display.view;
-    const PixelRect& t = slow.tile->tile; // with its border, and half a pixel about it
+    const PixelRect& t = slow.tile->tile; // with its border and a margin of 0.75 pixels
     const glm::vec2 image(state.request_size());
     const glm::vec2 min = (glm::vec2(t.x0, t.y0) - 0.75f) / image, max = (glm::vec2(t.x1, t.y1) + 1.75f) / image;
     state.display.view.show(min, max, state.request_size(), frame.pixels);
@@ -142,7 +142,7 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         state.active_pane = index;
         grip_ = grip_at(index, frame, tools);
         if (grip_.range && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            state.display.ranges.erase(grip_.range->buffer); // back to what fits by itself
+            state.display.ranges.erase(grip_.range->buffer); // back to the automatic range
             grip_ = grip_at(index, frame, tools);
         }
     }
@@ -151,13 +151,13 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
     if (ImGui::IsItemHovered() && !hold.is_camera())
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     else if (ImGui::IsItemHovered() && (state.inspector.active || state.slow_motion.active))
-        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand); // a click chooses, and does not move the camera
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand); // a click chooses a pixel
     if (ImGui::IsItemActive() && !grip_.is_camera()) {
         drag(frame, state);
-        mouse.left = mouse.middle = mouse.right = false; // the wheel still works
+        mouse.left = mouse.middle = mouse.right = false; // only the wheel keeps working
     }
     if ((state.inspector.active || state.slow_motion.active) && mouse.left && !mouse.ctrl && !mouse.shift) {
-        // A tile that is found moves the picture under the mouse, which is then over another's pixels.
+        // A new tile moves the picture under the mouse, so a held button must not choose again.
         if (!state.slow_motion.active || ImGui::IsItemActivated())
             choose_sample(index, frame, state);
         mouse.left = false;
@@ -175,8 +175,8 @@ void PaneView::use_mouse(int index, PictureFrame& frame, PaneTools& tools) {
         state.layout.cursor.reset();
 }
 
-/// A drag turns the camera about what is under the mouse, so that in a room it does not lead through the wall; a
-/// double click looks at it.
+/// Sets the centre of a drag to the surface under the mouse, so that an orbit inside a room does not pass through
+/// its walls. A double click turns the camera to the surface.
 void PaneView::take_hold(const PaneMouse& mouse, const PictureFrame& frame, ViewerState& state) {
     if (ImGui::IsItemActivated()) {
         has_hold_ = has_moved_ = false;
@@ -196,7 +196,7 @@ void PaneView::take_hold(const PaneMouse& mouse, const PictureFrame& frame, View
         state.camera.grab(*point);
 }
 
-/// The pixel under the mouse is to be looked at.
+/// Chooses the pixel under the mouse for the path inspector or the slow motion.
 void PaneView::choose_sample(int index, const PictureFrame& frame, ViewerState& state) {
     const glm::vec2 at = grab_position(), place = frame.to_image(at);
     if (place.x < 0 || place.y < 0 || place.x >= 1 || place.y >= 1)
@@ -220,7 +220,7 @@ PaneView::Grip PaneView::grip_at(int index, const PictureFrame& frame, PaneTools
     return grip;
 }
 
-/// Moves what the mouse holds to where it is: however far it went beyond an end, it comes back at the same place.
+/// Moves the held line or range to the mouse. Absolute positions avoid an offset after overshooting an end.
 void PaneView::drag(const PictureFrame& frame, ViewerState& state) const {
     const float x = mouse_position().x;
     if (grip_.wipe)
@@ -253,7 +253,7 @@ void PaneView::draw_renditions(int index, const PictureFrame& frame, PaneTools& 
 void PaneView::draw_overlays(int index, const std::string& id, const PictureFrame& frame, PaneTools& tools) {
     ViewerState& state = tools.state;
     draw_shared(index, frame, state);
-    if (!shows_slow_motion(index, state)) // which has numbers of its own
+    if (!shows_slow_motion(index, state)) // which draws its own numbers
         draw_pixel_numbers(frame, index, state, tools.images);
     draw_comparison(frame, id, index, state, tools.controls);
     draw_missing(index, frame, tools);
@@ -264,7 +264,7 @@ void PaneView::draw_overlays(int index, const std::string& id, const PictureFram
     draw_active_frame(index, frame, state);
 }
 
-/// Why there is no picture, or nothing on it, on each side of a wipe's line.
+/// Draws notice_of() on each side of a wipe's line.
 void PaneView::draw_missing(int index, const PictureFrame& frame, const PaneTools& tools) {
     const Sides sides = sides_of(tools.state, index);
     if (!sides.divided())
@@ -274,7 +274,7 @@ void PaneView::draw_missing(int index, const PictureFrame& frame, const PaneTool
     draw_notice(rects[1], notice_of(sides.right, tools));
 }
 
-/// Draws who shares light with whom, on each side of a wipe's line.
+/// Draws tiles, inspected paths and slow motion on each side of a wipe's line.
 void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerState& state) {
     const Sides sides = sides_of(state, index);
     const auto draw = [&](const Showing& showing, const ScreenRect& clip) {
@@ -294,20 +294,20 @@ void PaneView::draw_shared(int index, const PictureFrame& frame, const ViewerSta
     draw(sides.right, rects[1]);
 }
 
-/// Which of several panes the settings and keys are for.
+/// Draws a frame around the active one of several panes.
 void PaneView::draw_active_frame(int index, const PictureFrame& frame, const ViewerState& state) {
     const ScreenRect& rect = frame.rect;
     if (index == state.active_pane && state.panes.size() > 1 && !state.layout.alone)
         ImGui::GetWindowDrawList()->AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y}, colours::accent);
 }
 
-/// What the mouse's left button does here instead of moving the camera.
+/// Draws a label while the left mouse button chooses a pixel or tile instead of moving the camera.
 void PaneView::draw_mode(const PictureFrame& frame, const std::string& id, PaneTools& tools) {
     const ViewerState& state = tools.state;
     if (!state.inspector.active && !state.slow_motion.active)
         return;
-    const std::string text = state.slow_motion.active ? "Slow motion: click on a tile (J or Esc ends it)"
-                                                      : "Path inspector: click on a pixel (I or Esc ends it)";
+    const std::string text = state.slow_motion.active ? "Slow motion: click a tile (J or Esc to end)"
+                                                      : "Path inspector: click a pixel (I or Esc to end)";
     const float pad = std::floor(ImGui::GetFontSize() * 0.4f);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     if (size.x + 4 * pad > frame.rect.size().x || size.y + 4 * pad > frame.rect.size().y)

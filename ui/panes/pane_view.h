@@ -7,22 +7,21 @@
 
 namespace tessera {
 
-/// Draws one pane: a strip with its method and buffer, the picture, and a status line. Keeps the renditions of
-/// what it shows.
+/// Draws a pane: header with method and buffer, picture, and status line. Owns the canvases of the picture.
 class PaneView {
 public:
-    /// Draws the strip, and changes the state by its controls and by the mouse over the picture. All panes do so
-    /// before any draws its picture: what the mouse does over one, all show in the same frame.
+    /// Draws the header, and applies its controls and the mouse to the state. To be called for all panes before
+    /// draw(), so that all pictures show the change in the same frame.
     void take_input(int index, const ScreenRect& where, PaneTools& tools);
-    /// Draws the rest.
+    /// Draws the picture and the status line.
     void draw(int index, PaneTools& tools);
 
-    const Canvas& canvas() const { return canvas_; } ///< of the whole picture, or what is left of a wipe's line
+    const Canvas& canvas() const { return canvas_; } ///< of the picture, or of the left side of a wipe
 
 private:
-    /// What the mouse takes hold of when its button goes down: the camera, unless it is one of these.
+    /// The object that a drag moves: a wipe's line or a range, otherwise the camera.
     struct Grip {
-        std::optional<float> wipe; ///< how far it is from the line, screen units
+        std::optional<float> wipe; ///< distance of the mouse from the line at the start, screen units
         std::optional<HeldRange> range;
         bool is_camera() const { return !wipe && !range; }
     };
@@ -43,14 +42,14 @@ private:
     void draw_magnifier_at_cursor(int index, const PictureFrame& frame, PaneTools& tools);
 
     Canvas canvas_;
-    Canvas right_canvas_; // beyond a wipe's line
+    Canvas right_canvas_; // of the right side of a wipe
     Canvas magnifier_canvas_;
     PaneLegends legends_;
-    PictureFrame frame_; // of this frame
+    PictureFrame frame_; // of the present frame
     Grip grip_;
-    bool has_hold_ = false;  // of what lay under the mouse when the button went down
-    bool is_double_ = false; // it went down for the second time
-    bool has_moved_ = false; // the mouse, since then
+    bool has_hold_ = false;  // the present drag has grabbed the point under the mouse
+    bool is_double_ = false; // the present press is a double click on the camera
+    bool has_moved_ = false; // the mouse has moved since the press
 };
 
 } // namespace tessera

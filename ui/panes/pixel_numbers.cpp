@@ -13,9 +13,9 @@ namespace tessera {
 
 namespace {
 
-constexpr int characters = 7; // "-0.0123": what a pixel must have room for, in three lines
+constexpr int characters = 7; // "-0.0123": longest value of a pixel
 
-/// Draws text that can be read on bright pixels, too.
+/// Draws text with a shadow, which makes it readable on bright pixels.
 void draw_shadowed(ImDrawList& list, float font, ImVec2 at, const char* text) {
     const float edge = std::max(std::floor(font / 14), 1.0f);
     list.AddText(mono_font(), font, {at.x + edge, at.y + edge}, IM_COL32(0, 0, 0, 230), text);
@@ -73,13 +73,13 @@ bool draw_pixel_numbers(const PictureFrame& frame, int pane, const ViewerState& 
 }
 
 namespace {
-constexpr float edge_ems = 11;
-constexpr float pixels_across = 11; // of the image, unless they are larger anyway
-constexpr float least_factor = 2;
+constexpr float edge_ems = 11;      // edge of the magnifier, font sizes
+constexpr float pixels_across = 11; // image pixels across the magnifier, or fewer by least_factor
+constexpr float least_factor = 2;   // minimum enlargement of the displayed picture
 } // namespace
 
 CanvasView magnified(const CanvasView& view, glm::ivec2 image_size, glm::vec2 place, int pixels) {
-    const float present = view.image_extent.x / static_cast<float>(image_size.x); // pixels a pixel of the image
+    const float present = view.image_extent.x / static_cast<float>(image_size.x); // screen pixels per image pixel
     const float wanted = std::max(static_cast<float>(pixels) / pixels_across, present * least_factor);
     CanvasView result = view;
     result.pane_size = glm::ivec2(pixels);

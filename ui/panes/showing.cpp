@@ -149,14 +149,13 @@ std::optional<float> exposure_of(const Showing& showing, const PaneImages& image
 }
 
 std::optional<float> exposure_of(std::vector<float> values) {
-    constexpr float share_below = 0.95f, brightness = 0.8f;
+    constexpr float quantile = 0.95f, brightness = 0.8f; // not tuned
     for (float& value : values)
         value = std::abs(value);
     std::erase_if(values, [](float value) { return !(std::isfinite(value) && value > 0); });
     if (values.empty())
         return std::nullopt;
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share_below * static_cast<float>(values.size() - 1));
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<float>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return std::log2(brightness / *at);
 }
@@ -191,7 +190,7 @@ std::string label_of(const Showing& showing, const ViewerState& state) {
     const Buffer buffer = settings(state, showing.pane).buffer;
     const std::shared_ptr<const int>& part = state.companions.part;
     return name(state, showing.pane) + "  " + std::string(long_name(buffer)) +
-           (is_of_parts(buffer) && part ? fmt::format(", part {}", *part) : "");
+           (is_of_parts(buffer) && part ? fmt::format(", component {}", *part) : "");
 }
 
 ScreenPixels view_picture(int pane, const CanvasShader& shader, const PaneImages& images,
@@ -199,8 +198,8 @@ ScreenPixels view_picture(int pane, const CanvasShader& shader, const PaneImages
     const Showing showing = sides_of(state, pane).left;
     const PaneImage& image = images[showing.pane];
     const auto is_missing = [&](int i) {
-        const PaneImage& of = images[i];
-        return of.empty() || of.coarse();
+        const PaneImage& candidate = images[i];
+        return candidate.empty() || candidate.coarse();
     };
     if (is_missing(showing.pane) || (showing.subtrahend >= 0 && is_missing(showing.subtrahend)))
         return {};

@@ -12,48 +12,49 @@
 
 namespace tessera {
 
-/// The image of a pane's buffer, here and on the graphics side: taken anew only when there is another one to show.
+/// The image of a pane's buffer and its texture. Both are updated only when the image changes.
 class PaneImage {
 public:
     PaneImage() = default;
-    PaneImage(const PaneImage&) = delete; // it may refer to its own scratch image
+    PaneImage(const PaneImage&) = delete; // pixels_ can point to scratch_
     PaneImage& operator=(const PaneImage&) = delete;
 
-    /// `snapshot` may be null: some buffers need none.
+    /// Updates the image.
+    /// @param snapshot  may be null; some buffers need none
     void take(const Snapshot* snapshot, Buffer buffer, const Companions& companions);
 
     bool empty() const { return texture_.empty(); }
     const RgbImage& pixels() const { return *pixels_; }
-    /// The pixels, of which differences are taken.
+    /// Returns the texture of the pixels, which differences use.
     const ImageTexture& numbers() const { return texture_; }
-    /// What is shown by itself: the pixels, or the colours of a buffer that has its own.
+    /// Returns the texture to display: the pixels, or the colours of a buffer with ColourMap::own.
     const ImageTexture& texture() const { return colours_.empty() ? texture_ : colours_; }
     Buffer buffer() const { return buffer_; }
     bool coarse() const { return coarse_; }
-    /// The range of false colours that fits the first picture of the request. It stays while more samples come, so
-    /// that one can see the numbers fall.
+    /// Returns the range of false colours that fits the first picture of the request. It stays constant
+    /// afterwards, so that decreasing values are visible.
     const ValueRange& range() const { return range_; }
     int uploads() const { return texture_.serial(); }
-    /// Whether it is a picture of light without any.
+    /// Whether all pixels of a reconstruction or primal image are black.
     bool is_black() const { return is_black_; }
 
-    /// The value at a place given as fractions of the image, which must not be empty.
+    /// Returns the value at a place, fractions of the image. The image must not be empty.
     const Rgb& at(glm::vec2 place) const;
-    /// How the shifts to the pixel there ended; null: the image is of something else.
+    /// Returns the outcomes of the shifts to the pixel at a place; null: another buffer is shown.
     const ReuseCounts* outcomes_at(glm::vec2 place) const;
 
 private:
-    std::shared_ptr<const void> source_; // what it is made of: kept, so that it stays unique, and its pixels alive
+    std::shared_ptr<const void> source_; // of the image: keeps pixels_ valid and the address unique
     std::shared_ptr<const void> companion_;
     Buffer buffer_ = Buffer::reconstruction;
     RgbImage scratch_;
     const RgbImage* pixels_ = &scratch_;
     ImageTexture texture_, colours_;
-    std::shared_ptr<const ReuseMaps> outcomes_; // of an image of these
+    std::shared_ptr<const ReuseMaps> outcomes_; // only for Buffer::outcomes
     bool coarse_ = false;
     bool is_black_ = false;
 
-    /// What a range is found for.
+    /// Inputs that determine range_.
     struct RangeKey {
         std::uint64_t generation = 0;
         bool coarse = false;
@@ -65,62 +66,62 @@ private:
     RangeKey range_of_;
 };
 
-using PaneImages = std::array<PaneImage, most_panes + 1>; ///< the last: of the_reference
+using PaneImages = std::array<PaneImage, most_panes + 1>; ///< indexed by pane; the last is the_reference
 
-/// What a part of a pane shows: an image, or its difference to another.
+/// Content of a part of a pane: an image, or the difference of two.
 struct Showing {
-    int pane = 0;        ///< whose image it is: a pane's or the_reference
-    int subtrahend = -1; ///< likewise, what is taken off; -1: nothing
+    int pane = 0;        ///< of the image: a pane or the_reference
+    int subtrahend = -1; ///< pane or the_reference to subtract; -1: none
 
     bool operator==(const Showing&) const = default;
 };
 
-/// What `pane` shows at a share of its width, with its comparison and the key that flickers.
+/// Returns what `pane` shows at a fraction of its width, with its comparison and flicker.
 Showing showing_at(const ViewerState& state, int pane, float share);
 
-/// Where a pane is divided: what is shown to the left and to the right of its middle line. Equal: it is not.
+/// Content of a pane to the left and to the right of a wipe's line; equal without a wipe.
 struct Sides {
     Showing left, right;
     bool divided() const { return left != right; }
 };
 Sides sides_of(const ViewerState& state, int pane);
 
-/// What the image of a pane or of the_reference is of.
+/// Returns the buffer of a pane or of the_reference.
 Buffer buffer_of(int pane, const ViewerState& state);
 
-/// The part's colours: a difference has +/- colours whatever its buffer.
+/// Returns the part's colour map: a signed one for every difference.
 ColourMap colour_map(const Showing& showing, const ViewerState& state);
 
-/// The range of a buffer's false colours, which all panes share: the user's, else what holds those of all images.
+/// Returns the range of a buffer's false colours, which all panes share: the user's, or else the union of the
+/// images' ranges.
 ValueRange range_of(Buffer buffer, const ViewerState& state, const PaneImages& images);
 
-/// How the part is coloured: a canvas view without its place.
+/// Returns the part's colours as a canvas view without a position.
 CanvasView colours_of(const Showing& showing, const ViewerState& state, const PaneImages& images);
 
-/// The exposure, in stops, that brings all but the brightest of what is shown, or the largest of differences and
-/// gradients, to below white. Empty: there is nothing to see.
+/// Returns the exposure, stops, at which 95 % of the nonzero absolute luminances are below 0.8. Empty: all are 0.
 std::optional<float> exposure_of(const Showing& showing, const PaneImages& images);
-/// The same for luminances, or differences of such.
+/// Returns the same exposure for given luminances or their differences.
 std::optional<float> exposure_of(std::vector<float> values);
 
-/// What a canvas draws for the part.
+/// Textures that a canvas draws for the part.
 struct ShowingTextures {
     const ImageTexture& image;
-    const ImageTexture* subtrahend; ///< null: nothing is taken off
+    const ImageTexture* subtrahend; ///< null: none
 };
 ShowingTextures textures_of(const Showing& showing, const PaneImages& images);
 
-/// Why there is nothing to show, in words for its place; empty: there is, or will be.
+/// Returns the reason why the part has no image, for display; empty: it has one, or is about to.
 std::string missing_text(const Showing& showing, const ViewerState& state);
 
-/// The number at a place, fractions of the image. Empty: there is no image, or it does not reach there.
+/// Returns the value at a place, fractions of the image. Empty: there is no image, or the place is outside.
 std::optional<Rgb> value_at(const Showing& showing, const PaneImages& images, glm::vec2 place);
 
-/// "2  G-PR  Primal", "1  PT  minus  2  G-PR", "Reference".
+/// Returns "2  G-PR  Primal", "1  PT  minus  2  G-PR" or "Reference".
 std::string label_of(const Showing& showing, const ViewerState& state);
 
-/// What a pane shows, one pixel for each of the image's, in the colours that are on show; of a wipe, the pane's
-/// own picture. Empty: there is none, or only a first look.
+/// Renders a pane's picture in display colours, one pixel per image pixel; for a wipe, the left side's. Empty:
+/// there is none, or only a preview.
 ScreenPixels view_picture(int pane, const CanvasShader& shader, const PaneImages& images,
                           const ViewerState& state);
 

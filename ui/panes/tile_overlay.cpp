@@ -17,13 +17,13 @@ namespace tessera {
 
 namespace {
 
-constexpr float least_edge = 4;     // screen units between lines, below which they would be a grey veil
-constexpr float least_pattern = 10; // edge of a pixel whose pattern can be told by its colour
+constexpr float least_edge = 4;     // minimum distance of lines, screen units: denser lines look like a grey veil
+constexpr float least_pattern = 10; // minimum edge of a pixel with a recognisable colour, screen units
 constexpr ImU32 tile_colour = IM_COL32(255, 255, 255, 90), split_colour = IM_COL32(255, 255, 255, 45);
 constexpr ImU32 shadow_colour = IM_COL32(0, 0, 0, 70);
 constexpr ImU32 set_colour = IM_COL32(64, 196, 178, 70), set_edge_colour = IM_COL32(64, 196, 178, 255);
 constexpr ImU32 halo_colour = IM_COL32(255, 168, 51, 90), halo_edge_colour = IM_COL32(255, 168, 51, 255);
-constexpr ImU32 alone_colour = IM_COL32(51, 102, 255, 60); // pixels that share nothing
+constexpr ImU32 alone_colour = IM_COL32(51, 102, 255, 60); // pixels without path reuse
 
 class TileDrawing {
 public:
@@ -54,8 +54,8 @@ public:
         const int n = settings_.tile;
         if (!reuses_paths(settings_.method))
             std::snprintf(line, sizeof line,
-                          settings_.method == Method::gpt ? "G-PT: a pixel shares with each of its neighbours"
-                                                          : "PT shares no paths between pixels");
+                          settings_.method == Method::gpt ? "G-PT: a pixel reuses the paths of its neighbours"
+                                                          : "PT reuses no paths");
         else if (uses_rooks())
             std::snprintf(line, sizeof line, "pass %d: %d-rooks patterns, moved by (%d, %d)", pass, n,
                           grid_.origin.x, grid_.origin.y);
@@ -78,7 +78,7 @@ private:
         drawing_.outline(r, colour, std::max(ImGui::GetFontSize() / 10, 1.0f));
     }
 
-    /// The grid of whole tiles.
+    /// Draws the grid of tiles.
     void draw_lines() const {
         const PixelRect first = grid_.tile_at({visible_.x0, visible_.y0});
         for (int x = first.x0; x <= visible_.x1; x += settings_.tile)
@@ -89,7 +89,7 @@ private:
                 line({visible_.x0, y}, {visible_.x1, y}, tile_colour);
     }
 
-    /// What is within tiles: cuts, or the patterns' pixels.
+    /// Draws the inside of tiles: tile splits, or the pixels of N-rooks patterns.
     void draw_tiles() {
         const PixelRect first = grid_.tile_at({visible_.x0, visible_.y0});
         for_each_square({first.x0, first.y0, visible_.x1, visible_.y1}, settings_.tile, [&](PixelRect tile) {
@@ -125,7 +125,7 @@ private:
         }
     }
 
-    /// The sampling sets that a pixel has its light from.
+    /// Marks the sampling sets that contribute to a pixel.
     void draw_set(glm::ivec2 p) {
         const PixelRect pixel{p.x, p.y, p.x + 1, p.y + 1};
         if (settings_.method == Method::gpt) {
@@ -167,7 +167,7 @@ private:
     std::vector<int> columns_;
 };
 
-/// Draws a box with the text in the lower right corner, where no other box is.
+/// Draws a box with the text in the lower right corner.
 void draw_text(const ScreenRect& where, const std::string& text) {
     const float pad = std::floor(ImGui::GetFontSize() * 0.4f);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());

@@ -11,13 +11,14 @@ namespace tessera {
 
 namespace {
 
-constexpr float grab_ems = 0.9f; // to each side of the line
+constexpr float grab_ems = 0.9f; // distance at which the mouse grabs the line, font sizes
 
 float line_x(const PictureFrame& frame, float wipe) {
     return std::floor(frame.rect.min.x + wipe * frame.rect.size().x);
 }
 
-/// A name in a box. `align` 0: right of x, 1: left of it, 0.5: about it.
+/// Draws a name in a box.
+/// @param align  0: right of x; 1: left of x; 0.5: centred at x
 void draw_label(const PictureFrame& frame, float x, float align, const Showing& showing,
                 const ViewerState& state) {
     const std::string text = label_of(showing, state);
@@ -55,9 +56,10 @@ void note_line(const PictureFrame& frame, float x, const std::string& id, Contro
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({x - reach, frame.rect.min.y});
     ImGui::Dummy({2 * reach, std::max(frame.rect.size().y, 1.0f)});
-    controls.place((id + ".wipe").c_str(),
-                   "Drag the line: this pane's own picture to its left, what it is compared "
-                   "with to its right (V: on and off).");
+    controls.place(
+        (id + ".wipe").c_str(),
+        "Drag the line. This pane's own picture is on the left, the compared one on the right (V switches "
+        "the wipe).");
     ImGui::SetCursorScreenPos(cursor);
 }
 

@@ -50,7 +50,7 @@ void compare_reconstructions(ViewerState& state) {
         shown.render.method = Method::gpr;
     shown.buffer = Buffer::reconstruction;
     shown.comparison = {};
-    state.linked = false; // they differ in what linked panes share
+    state.linked = false; // linked panes have the same reconstruction
     state.layout.alone = false;
     state.set_pane_count(most_panes);
     constexpr Norm norms[] = {Norm::none, Norm::l1, Norm::weighted, Norm::guided};
@@ -71,13 +71,13 @@ void add_bookmark(ViewerState& state) {
         return;
     state.bookmarks.views.push_back({state.camera.camera(), state.camera.distance()});
     state.bookmarks.current = static_cast<int>(state.bookmarks.views.size()) - 1;
-    state.tell("This view is bookmark " + std::to_string(state.bookmarks.views.size()) +
-               "; F7 goes from one to the next.");
+    state.tell("Bookmark " + std::to_string(state.bookmarks.views.size()) +
+               " added. F7 moves the camera to the next bookmark.");
 }
 
 void next_bookmark(ViewerState& state) {
     if (state.bookmarks.views.empty())
-        return state.tell("There is no bookmark yet: Shift+F7 makes one of this view.");
+        return state.tell("There are no bookmarks. Shift+F7 adds one for this view.");
     state.bookmarks.current = (state.bookmarks.current + 1) % static_cast<int>(state.bookmarks.views.size());
     const Bookmark& to = state.bookmarks.views[state.bookmarks.current];
     state.camera.put(to.camera, to.distance);
@@ -86,7 +86,7 @@ void next_bookmark(ViewerState& state) {
 void forget_bookmark(ViewerState& state) {
     if (state.bookmarks.current < 0)
         return;
-    state.tell("Bookmark " + std::to_string(state.bookmarks.current + 1) + " is forgotten.");
+    state.tell("Bookmark " + std::to_string(state.bookmarks.current + 1) + " deleted.");
     state.bookmarks.views.erase(state.bookmarks.views.begin() + state.bookmarks.current);
     state.bookmarks.current =
         std::min(state.bookmarks.current, static_cast<int>(state.bookmarks.views.size()) - 1);

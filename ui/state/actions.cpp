@@ -78,7 +78,7 @@ std::optional<Shortcut> shortcut_named(const std::string& text) {
 }
 
 void Keyboard::press(Key physical, Key named, bool ctrl, bool shift) {
-    // A key with Ctrl is a shortcut, and does not count as held: Ctrl+S must not fly back.
+    // A key with Ctrl is a shortcut and does not count as held: Ctrl+S must not move the camera back.
     down_[static_cast<std::size_t>(physical)] = physical != Key::none && !ctrl;
     if (named != Key::none)
         typed_.push_back({named, ctrl, shift, 0});
@@ -103,28 +103,29 @@ std::vector<Shortcut> Keyboard::take() {
 
 namespace {
 
-constexpr float fly_speed = 0.45f; // radii of the scene a second
-constexpr float look_speed = 1.1f; // radians a second
-constexpr float hurry = 4.0f;      // with Shift
+constexpr float fly_speed = 0.45f;   // scene radii per second; not tuned
+constexpr float look_speed = 1.1f;   // radians per second; not tuned
+constexpr float shift_factor = 4.0f; // on fly_speed, with Shift
 
 constexpr Gesture gesture_table[] = {
-    {"Left drag", "Orbit about what is under the mouse, or the target where there is nothing"},
-    {"Double click", "Look at what is under the mouse, and orbit about it"},
+    {"Left drag", "Orbit around the surface under the mouse, or around the target where there is none"},
+    {"Double click", "Look at the surface under the mouse, and orbit around it"},
     {"Right click", "Menu of the pane"},
-    {"Middle drag, Shift + left drag", "Pan: what is under the cursor follows it"},
-    {"Wheel, right drag", "Dolly toward the target and away"},
-    {"W A S D, Q E", "Fly ahead, left, back, right; down, up (Shift: faster)"},
+    {"Middle drag, Shift + left drag", "Pan: the surface under the mouse follows it"},
+    {"Wheel, right drag", "Dolly toward the target or away from it"},
+    {"W A S D, Q E", "Fly forward, left, back, right; down, up (Shift: faster)"},
     {"Arrow keys", "Look around"},
-    {"B held", "Flicker: the active pane shows the picture that it is compared with"},
-    {"Ctrl + wheel", "Zoom the picture itself, in all panes; near enough, pixels show their numbers"},
-    {"Ctrl + left drag", "Move the picture itself"},
-    {"Left button with the path inspector (I)", "Choose the pixel that is looked at"},
-    {"Left button with the slow motion (J)", "Choose the tile that is drawn"},
-    {"Drag on a legend's colours", "Move an end of their range; double click: back to the image's"},
+    {"B held", "Flicker: the active pane shows the picture it is compared with"},
+    {"Ctrl + wheel", "Zoom the pictures of all panes; large pixels show their values"},
+    {"Ctrl + left drag", "Pan the pictures of all panes; the camera stays"},
+    {"Left button with the path inspector (I)", "Choose the pixel to inspect"},
+    {"Left button with the slow motion (J)", "Choose the tile to draw"},
+    {"Drag on a legend's colours", "Move an end of the range; double click: automatic range"},
     {"Ctrl + click on a slider", "Type a value"},
 };
 
-/// The actions that were called. A character wins over the key that made it: on a French keyboard '-' lies on 6.
+/// Returns the actions of a typed event. Its character has priority over its key: on a French keyboard '-' is
+/// on 6.
 std::vector<const Action*> called_by(const Shortcut& typed) {
     const Shortcut as_character{Key::none, false, false, typed.character};
     const Shortcut as_key{typed.key, typed.ctrl, typed.shift, 0};
@@ -144,23 +145,24 @@ bool counts_in_text(const Shortcut& typed) {
 }
 
 void close_overlays(bool entering_text, ViewerState& state) {
-    const bool any = entering_text || // whose end it is
-                     state.layout.show_help || state.layout.show_palette || state.layout.large_charts ||
-                     state.layout.show_jobs || state.layout.show_gallery || state.reference_making.show ||
-                     state.layout.sample_form.show || state.layout.choosing;
-    // What is on its way goes one after the other, the scene first.
+    const bool closes_any = entering_text || // Escape ends it
+                            state.layout.show_help || state.layout.show_palette || state.layout.large_charts ||
+                            state.layout.show_jobs || state.layout.show_gallery || state.reference_making.show ||
+                            state.layout.sample_form.show || state.layout.choosing;
+    // Each press cancels one running task: the scene's load, the reference's, then reconstructions.
     const bool loads = !state.scene_info.loading.empty();
     const bool is_busy = loads || state.reference_read ||
                          std::any_of(state.panes.begin(), state.panes.end(),
                                      [&](const PaneState& pane) { return state.reconstructs_long(pane); });
-    if (!any && !is_busy) { // the last that it ends
+    if (!closes_any && !is_busy) {
         state.set_inspector(false);
         state.set_slow_motion(false);
     }
-    state.wishes.cancel_scene = state.wishes.cancel_scene || (!any && loads);
-    state.wishes.cancel_reference = state.wishes.cancel_reference || (!any && !loads && state.reference_read);
+    state.wishes.cancel_scene = state.wishes.cancel_scene || (!closes_any && loads);
+    state.wishes.cancel_reference =
+        state.wishes.cancel_reference || (!closes_any && !loads && state.reference_read);
     state.wishes.give_up_reconstructions =
-        state.wishes.give_up_reconstructions || (!any && !loads && !state.reference_read);
+        state.wishes.give_up_reconstructions || (!closes_any && !loads && !state.reference_read);
     state.layout.show_help = state.layout.show_palette = false;
     state.layout.large_charts = state.layout.show_jobs = state.layout.show_gallery = false;
     state.reference_making.show = state.layout.sample_form.show = false;
@@ -185,11 +187,10 @@ void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerSt
         if (entering_text && !counts_in_text(shortcut))
             continue;
         if (entering_text && (shortcut.key == Key::z || shortcut.key == Key::y) && shortcut.ctrl)
-            continue; // the text's own
+            continue; // undo and redo of the text field
         for (const Action* action : called_by(shortcut))
             action->run(state);
     }
-    // A closing key that every overlay has.
     if (std::find(typed.begin(), typed.end(), Shortcut{Key::escape}) != typed.end())
         close_overlays(entering_text, state);
 }
@@ -200,7 +201,7 @@ bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state) 
     };
     const glm::vec3 steps(axis(Key::a, Key::d), axis(Key::e, Key::q), axis(Key::w, Key::s));
     const glm::vec2 turns(axis(Key::left, Key::right), axis(Key::up, Key::down));
-    const float speed = keyboard.is_down(Key::shift) ? hurry : 1.0f;
+    const float speed = keyboard.is_down(Key::shift) ? shift_factor : 1.0f;
     if (steps != glm::vec3(0))
         state.camera.fly(steps * (fly_speed * speed * seconds));
     if (turns != glm::vec2(0))

@@ -13,7 +13,7 @@
 
 namespace tessera {
 
-/// Keys that the viewer knows. Letters and digits follow each other.
+/// Keys of the keyboard. Letters, digits and function keys have consecutive values.
 // clang-format off
 enum class Key : std::uint8_t {
     none,
@@ -25,16 +25,16 @@ enum class Key : std::uint8_t {
 };
 // clang-format on
 
-/// The letter's or digit's key (either case); Key::none for others.
+/// Returns the key of a letter, in either case, or of a digit; Key::none for other characters.
 Key key_of_character(char character);
 
-/// What a key is called: by the letter or digit printed on it, which the system tells in UTF-8 (null: it does not
-/// know), else by its place on an American keyboard. With Alt of either side, no key is meant: on many keyboards
-/// that one makes brackets of digits.
+/// Returns the key that was pressed: the letter or digit printed on it, or else its place on a US keyboard.
+/// Returns Key::none with Alt, because many layouts use Alt and digits for brackets.
+/// @param printed  UTF-8 name from the system; null: unknown
 Key key_named(const char* printed, Key place, bool alt);
 
-/// What calls an action: a key with its modifiers, or a character however the keyboard makes it ('?'). What was
-/// typed may be both: a key, and the character that it has made.
+/// Trigger of an action: a key with modifiers, or a character, whatever keys produce it ('?'). A typed event can
+/// hold both, a key and its character.
 struct Shortcut {
     Key key = Key::none;
     bool ctrl = false;
@@ -44,94 +44,95 @@ struct Shortcut {
     bool operator==(const Shortcut&) const = default;
 };
 
-/// "Ctrl+Q", "F1", "?", "Space".
+/// Returns "Ctrl+Q", "F1", "?" or "Space"; empty without a key and a character.
 std::string to_string(const Shortcut& shortcut);
 
-/// The shortcut of that name; also "Up" or "Ctrl+Shift+K", and a character that is neither letter nor digit.
-/// Nothing: there is none.
+/// Parses a key name such as "Up" or "Ctrl+Shift+K", or a character that is neither letter nor digit. Empty: no
+/// shortcut has this name.
 std::optional<Shortcut> shortcut_named(const std::string& name);
 
-/// What was typed since the last frame, and what is held. Own bookkeeping, not Dear ImGui's: its older versions
-/// lose a key that goes down and up between two frames, which happens when the processors are busy.
+/// Records key presses, typed characters and held keys. Dear ImGui's own key state is not used: older versions
+/// lose a key that goes down and up between two frames, which happens under load.
 class Keyboard {
 public:
-    /// A key went down. `physical` is the place on an American keyboard, `named` what is printed on it.
+    /// Records a key press. `physical` is the key's place on a US keyboard, `named` its printed label.
     void press(Key physical, Key named, bool ctrl, bool shift);
     void release(Key physical);
-    /// A character came, that of the key which went down just before, if one did.
+    /// Records a character. It belongs to the key that was pressed just before, if there is one.
     void type(char character);
     void release_all() { down_.reset(); }
 
-    /// Whether the key is held now, by its place, so that W A S D lie alike on all keyboards.
+    /// Whether the key at this place is held. Places keep W A S D together on every layout.
     bool is_down(Key physical) const { return down_[static_cast<std::size_t>(physical)]; }
 
-    /// What was pressed and typed since the last take, in order.
+    /// Returns the presses and characters since the previous call, in order.
     std::vector<Shortcut> take();
 
 private:
     std::bitset<static_cast<std::size_t>(Key::count)> down_;
     std::vector<Shortcut> typed_;
-    bool awaits_character_ = false; // the last of these may have made one
+    bool awaits_character_ = false; // the next character belongs to the last of typed_
 };
 
-/// One thing that the viewer can be told. The menus, the shortcuts, the list of commands and the help page are
-/// made of the table of these.
+/// A command of the viewer. Menus, shortcuts, command palette and help page are built from the table of actions.
 struct Action {
-    const char* menu; ///< or the group's name, where no menu has it
+    const char* menu; ///< title of the menu, or of the group on the help page
     const char* name;
     const char* help;
-    Shortcut shortcut; ///< Key::none and no character: none, as of the next
+    Shortcut shortcut; ///< without key and character: none; likewise second_shortcut
     Shortcut second_shortcut;
     void (*run)(ViewerState&);
-    bool (*checked)(const ViewerState&); ///< null where there is nothing to be on or off
+    bool (*checked)(const ViewerState&); ///< whether a toggle is on; null: not a toggle
 };
 
-/// All actions, in the order of the menus.
+/// Returns all actions in the order of the menus.
 std::span<const Action> actions();
-/// Whether it is in a menu of the menu bar: what is seldom wanted, or has buttons where it belongs, is found in
-/// the list of commands and the help page alone.
+/// Whether the action is in the menu bar. Rare actions, and actions with buttons elsewhere, are only in the
+/// command palette and on the help page.
 bool is_in_menu(const Action& action);
-/// The one of that name. Throws std::invalid_argument where there is none.
+/// Returns the action with this name. Throws std::invalid_argument if there is none.
 const Action& action_named(std::string_view name);
 
-/// How the mouse and the held keys move camera and picture, for the help page.
+/// A mouse gesture or held key, and its effect, for the help page.
 struct Gesture {
     const char* input;
     const char* help;
 };
 std::span<const Gesture> gestures();
 
-/// Runs what was typed. While text is being entered, only shortcuts with Ctrl and function keys count.
+/// Runs the actions of the typed shortcuts; Escape closes overlays or cancels a running task. During text input
+/// only function keys and shortcuts with Ctrl count, except Ctrl+Z and Ctrl+Y.
 void run_shortcuts(std::span<const Shortcut> typed, bool entering_text, ViewerState& state);
 
-/// Moves the camera by the keys that are held, during `seconds`. Tells whether any is.
+/// Moves the camera by the held keys for a frame of `seconds`. Returns whether it moved.
 bool fly_with_keys(const Keyboard& keyboard, float seconds, ViewerState& state);
 
-// What the actions of the table do that takes more than a line.
+// The functions of actions that take more than a line.
 
 void set_buffer(ViewerState& state, Buffer buffer); ///< in all panes
 void step_method(ViewerState& state, int step);     ///< of the active pane
 void step_tile(ViewerState& state, int step);
-/// From the whole of coefficients to their first part, and so on through all that some pane has.
+/// Shows the next basis component that some pane has, or the whole after the last one.
 void next_part(ViewerState& state);
-/// Switches a pane between raw samples and the denoiser of its method: `guided` with gradients, `smoothed` without.
-/// Unlinks the panes if there are several, because the reconstruction then differs between them.
+/// Switches a pane between raw samples and the denoiser of its method: `guided` with gradients, `smoothed`
+/// without. Unlinks the panes if there are several, because the reconstruction then differs between them.
 void toggle_denoiser(ViewerState& state, int pane);
-/// Four panes of the active one's samples: the primal, and what L1, the weighted norm and guides make of them.
+/// Shows four reconstructions of the active pane's samples: raw samples, L1, weighted and guided. A method
+/// without gradients becomes G-PR.
 void compare_reconstructions(ViewerState& state);
 void step_exposure(ViewerState& state, float stops);
 void step_pass(ViewerState& state);
 void step_ui_scale(ViewerState& state, float by);
 void next_pane(ViewerState& state);
-void add_bookmark(ViewerState& state);    ///< of the view on show
-void next_bookmark(ViewerState& state);   ///< goes to it; nothing where there is none
-void forget_bookmark(ViewerState& state); ///< the one that was gone to or made last
+void add_bookmark(ViewerState& state);
+void next_bookmark(ViewerState& state);   ///< moves the camera there; a message if there is none
+void forget_bookmark(ViewerState& state); ///< deletes the one that was visited or added last
 void next_grid(ViewerState& state);
 void next_tone(ViewerState& state);
 void next_tile(ViewerState& state);     ///< of the slow motion
-void toggle_charts(ViewerState& state); ///< hidden, they are not drawn large either
+void toggle_charts(ViewerState& state); ///< hides the large charts, too
 void toggle_inspector(ViewerState& state);
-void open_sample_form(ViewerState& state); ///< with the sample that is looked at
+void open_sample_form(ViewerState& state); ///< filled with the inspected sample
 void toggle_slow_motion(ViewerState& state);
 void toggle_comparison(ViewerState& state, Comparison::Kind kind);
 

@@ -28,7 +28,7 @@ const RgbImage& primal_with_very_direct(const GradientImages& images, RgbImage& 
     return scratch;
 }
 
-/// The least of the steps times a power of ten that is not below `value` > 0.
+/// Returns `value` > 0, rounded up to one of the steps times a power of ten.
 float rounded_up(float value) {
     const float power = std::pow(10.0f, std::floor(std::log10(value)));
     for (float step : {1.0f, 1.2f, 1.5f, 2.0f, 2.5f, 3.0f, 4.0f, 5.0f, 6.0f, 8.0f}) {
@@ -38,7 +38,7 @@ float rounded_up(float value) {
     return 10 * power;
 }
 
-/// Whether there is a reconstruction of this size: a first look's may still be there when the first whole pass is.
+/// Whether there is a reconstruction of this size. A preview's can remain when the first full pass arrives.
 bool has_reconstruction(const Snapshot& snapshot) {
     if (!snapshot.images || !snapshot.reconstruction)
         return false;
@@ -94,20 +94,21 @@ namespace {
 
 const RgbImage no_picture;
 
-/// The picture at the end: reconstructed where that is done.
+/// Returns the reconstruction, or the primal until there is one.
 const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
     return has_reconstruction(snapshot) ? snapshot.reconstruction->image
                                         : primal_with_very_direct(*snapshot.images, scratch);
 }
 
-/// The part that is wanted, if the snapshot has it.
+/// Returns the selected basis component; null: none is selected, or the snapshot does not have it.
 const BasisComponent* part_of(const Snapshot& snapshot, const Companions& companions) {
     const std::vector<BasisComponent>& parts = snapshot.images->parts;
     const int l = companions.part ? *companions.part : -1;
     return l >= 0 && l < static_cast<int>(parts.size()) ? &parts[l] : nullptr;
 }
 
-/// A picture of coefficients, gradients or their variances: of `measured`, the whole or a part.
+/// Returns coefficients, gradients or their variances.
+/// @param measured  GradientImages (the whole) or BasisComponent
 template <class Measured>
 const RgbImage& measured_picture(const Measured& measured, Buffer buffer, RgbImage& scratch) {
     switch (buffer) {
@@ -216,23 +217,23 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
     if (of_gradients && !has_gradients(method))
         return name + " measures no gradients";
     if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
-        return "A variance takes two passes";
+        return "Variances need two passes";
     if (buffer == Buffer::samples && snapshot && !finds_gain_of_sharing(snapshot->settings))
-        return "All pixels have taken as many: the passes";
+        return "All pixels have one sample per pass";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt && buffer != Buffer::samples)
-        return name + " shares no paths between pixels";
+        return name + " reuses no paths";
     if (buffer == Buffer::reuse_set_size && !reuses_paths(method))
         return name + " has no tiles";
     if (buffer == Buffer::gain && snapshot && !finds_gain_of_sharing(snapshot->settings))
-        return "What sharing brings is found for G-PR whose tiles adapt";
+        return "The gain is measured only for G-PR with adaptive tiles";
     if (family(buffer) == BufferFamily::basis && method == Method::pt)
-        return name + " divides by no albedo";
+        return name + " does not demodulate the albedo";
     if (family(buffer) == BufferFamily::basis && snapshot && snapshot->settings.basis == Basis::none)
-        return "Basis is none: nothing is divided by the albedo";
+        return "The basis is none: the albedo is not demodulated";
     if (buffer == Buffer::projection && !has_gradients(method))
-        return name + " measures no gradients, and so no parts";
+        return name + " measures no gradients, and so has no basis components";
     if (buffer == Buffer::projection && snapshot && !is_expanded(snapshot->settings))
-        return "The basis has no parts: choose harmonics or boxes";
+        return "The basis has one component: choose harmonics or boxes";
     if (family(buffer) != BufferFamily::error && family(buffer) != BufferFamily::reference)
         return "";
     if (!companions.reference)
@@ -255,7 +256,7 @@ float top_value(Buffer buffer, const RgbImage& image) {
 
 namespace {
 
-/// Five decades about the mean: the largest of all variances is an outlier's.
+/// Returns five decades that end at ten times the mean. The maximum would be an outlier's.
 ValueRange variance_range(const RgbImage& image) {
     double sum = 0;
     for (const Rgb& pixel : image)
@@ -271,7 +272,7 @@ ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companion
     if (family(buffer) == BufferFamily::variance)
         return variance_range(image);
     if (buffer == Buffer::gain)
-        return {0.1f, 10, true}; // 1, where it is as well to share as not, is in the middle
+        return {0.1f, 10, true}; // 1, where reuse neither gains nor costs, is in the middle
     if (family(buffer) != BufferFamily::error)
         return {0, top_value(buffer, image), false};
     const float mean = companions.reference && companions.reference->mean > 0 ? companions.reference->mean : 1;

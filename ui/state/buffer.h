@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// What a pane can show.
+/// An image that a pane can show.
 // clang-format off
 enum class Buffer {
     reconstruction, primal, dx, dy, reused, outcomes, survival, very_direct,
@@ -56,27 +56,27 @@ inline constexpr Buffer all_buffers[] = {Buffer::reconstruction,
                                          Buffer::samples};
 static_assert(std::size(all_buffers) == enumerator_count<Buffer>);
 
-/// What a buffer is made of.
+/// Source of a buffer's image.
 enum class BufferFamily {
     picture,   ///< a snapshot
-    variance,  ///< a snapshot of two or more passes; of gradients, of a method that measures these
+    variance,  ///< a snapshot of two or more passes; for gradients, of a method that measures them
     gradient,  ///< a snapshot of a method that measures gradients
-    reuse,     ///< a snapshot of a method that shares paths
+    reuse,     ///< a snapshot of a method that reuses paths
     error,     ///< a picture and a reference
     reference, ///< the reference itself
-    first_hit, ///< the scene and the camera
-    basis,     ///< a snapshot of a method whose basis is not none
+    first_hit, ///< scene and camera
+    basis,     ///< a snapshot with a basis other than none
 };
 
-/// What there is to know of a buffer before any image of it.
+/// Constant properties of a buffer.
 struct BufferInfo {
     Buffer buffer;
     const char* id;    ///< in log and command line: "reconstruction"
-    const char* label; ///< in panels: "Reconstruction"
-    const char* help;  ///< what its numbers are, with their unit
+    const char* label; ///< in panels: "Result"
+    const char* help;  ///< meaning and unit of its values
     BufferFamily family;
     ColourMap map;
-    const char* unit; ///< of false colours; numbers are shown times unit_scale
+    const char* unit; ///< of the displayed values, which are the image's times unit_scale
     float unit_scale;
 };
 const BufferInfo& info(Buffer buffer);
@@ -95,44 +95,44 @@ inline BufferFamily family(Buffer buffer) {
     return info(buffer).family;
 }
 
-/// A method's name as papers write it: "PT", "PR", "G-PT", "G-PR".
+/// Returns a method's name in papers: "PT", "PR", "G-PT", "G-PR".
 std::string_view paper_name(Method method);
 
-/// Whether it shows how wide paths are: of first hits with footprints (FirstHits).
+/// Whether the buffer needs first hits with footprints (FirstHits).
 bool is_footprint(Buffer buffer);
 
-/// Whether the buffer shows one part where one is wanted (Companions::part).
+/// Whether the buffer can show a single basis component (Companions::part).
 bool is_of_parts(Buffer buffer);
 
-/// What of the snapshot the buffer's image is made from: changes exactly when another picture is to be shown.
-/// Null: there is none.
+/// Returns the part of the snapshot from which picture() makes the buffer's image. The pointer changes exactly
+/// when the image does. Null: there is no image, or it does not depend on the snapshot.
 std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buffer);
-/// What of the companions the buffer's image is made from beside the snapshot. Null: nothing, or it is not there.
+/// Returns the part of the companions from which picture() makes the buffer's image. Null: it needs none, or it
+/// is missing.
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer);
 
-/// The buffer's image; empty if there is none, as for errors where the sizes differ. Where there is no
-/// reconstruction (yet) of the snapshot's size, or none is needed, the primal stands in, which holds the very
-/// direct light, so that lamps are not black. `scratch` is storage to build an image in; the result may refer to
-/// it, to the snapshot or to the companions.
+/// Returns the buffer's image; empty if there is none, for example an error buffer with a reference of another
+/// size. The primal with directly visible emission replaces a missing reconstruction of the snapshot's size.
+/// @param scratch  storage for the image; the result refers to it, to the snapshot or to the companions
 const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch,
                         const Companions& companions = {});
 
-/// The image in colours of its own, where the buffer has such (ColourMap::own) and there is one; else empty. The
-/// numbers of picture() are then what differences are taken of.
+/// Returns the image in display colours for a buffer with ColourMap::own; otherwise empty. Differences use the
+/// values of picture().
 RgbImage own_colours(const Snapshot& snapshot, Buffer buffer);
 
-/// Why a pane has no image of its buffer, in words for its place; empty: it has one, or will.
+/// Returns the reason why a pane has no image of its buffer, for display; empty: it has one, or is about to.
 std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer, const Companions& companions);
 
-/// The value that the last false colour stands for in such a buffer's image: 1 for shares, else the greatest,
-/// rounded up to one that reads well. 1 for an image without any value above 0.
+/// Returns the value of the last false colour: 1 for fractions and for images without positive values, otherwise
+/// the image's maximum, rounded up to a short number.
 float top_value(Buffer buffer, const RgbImage& image);
 
-/// The range of false colours that shows the buffer's image well. Errors have the same for all images of a
-/// reference, so that panes and times can be compared.
+/// Returns the default range of false colours for the buffer's image. Error buffers have one range per reference,
+/// so that panes and passes can be compared.
 ValueRange automatic_range(Buffer buffer, const RgbImage& image, const Companions& companions = {});
 
-/// What the colours of a range stand for: "reused: 0 .. 50 paths a pass", "relMSE: 0.0001 .. 1  log scale".
+/// Returns the caption of a legend: "reused: 0 .. 50 paths per pass", "relMSE: 0.0001 .. 1  log scale".
 std::string legend_text(Buffer buffer, const ValueRange& range);
 
 } // namespace tessera

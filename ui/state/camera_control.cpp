@@ -19,9 +19,8 @@ namespace tessera {
 
 namespace {
 
-constexpr float least_distance = 0.02f; // radii of the scene
-constexpr float most_distance = 1000.0f;
-constexpr float pole_margin = 0.02f; // radians between the view and straight up or down
+constexpr float least_distance = 0.02f, most_distance = 1000.0f; // scene radii; not tuned
+constexpr float pole_margin = 0.02f; // radians between the view and straight up or down; not tuned
 
 glm::vec3 column(const Camera& camera, int i) {
     return glm::vec3(camera.to_world[i]);
@@ -41,8 +40,8 @@ glm::vec3 axis_lengths(const Camera& camera) {
     return {glm::length(column(camera, 0)), glm::length(column(camera, 1)), glm::length(column(camera, 2))};
 }
 
-// Rounding would let the axes drift over thousands of drags: makes them orthogonal again, with their lengths;
-// their handedness stays.
+/// Makes the axes orthogonal with the given lengths, because rounding errors add up over thousands of drags.
+/// Keeps the handedness.
 void straighten(glm::mat4& m, glm::vec3 lengths) {
     const glm::vec3 forward = glm::normalize(glm::vec3(m[2]));
     glm::vec3 left = glm::vec3(m[0]) - forward * glm::dot(forward, glm::vec3(m[0]));
@@ -97,11 +96,11 @@ glm::vec3 CameraControl::forward() const {
 }
 
 void CameraControl::turn_about(glm::vec3 pivot, float yaw, float pitch) {
-    // The camera's left when level, which does not vanish as its own would in a mirrored or rolled camera.
+    // The pitch axis is horizontal, also for a mirrored or rolled camera.
     const glm::vec3 level = glm::cross(up_, forward());
     const glm::vec3 axis = glm::length(level) > 1e-4f ? glm::normalize(level) : glm::normalize(column(camera_, 0));
     const float angle = std::acos(std::clamp(glm::dot(forward(), up_), -1.0f, 1.0f)); // from straight up
-    // A home nearer to a pole than the margin may stay there, but comes no nearer.
+    // A camera nearer to a pole than the margin can stay there, but not come nearer.
     const float lowest = std::min(pole_margin, angle);
     const float highest = std::max(glm::pi<float>() - pole_margin, angle);
     pitch = std::clamp(angle + pitch, lowest, highest) - angle;
@@ -130,10 +129,10 @@ void CameraControl::grab(glm::vec3 point) {
 }
 
 void CameraControl::focus(glm::vec3 point) {
-    const glm::vec3 way = point - position();
-    if (glm::length(way) < 1e-6f * scene_radius_)
+    const glm::vec3 to_point = point - position();
+    if (glm::length(to_point) < 1e-6f * scene_radius_)
         return;
-    const glm::vec3 wanted = glm::normalize(way);
+    const glm::vec3 wanted = glm::normalize(to_point);
     const auto level = [&](glm::vec3 v) { return v - up_ * glm::dot(v, up_); };
     const auto from_up = [&](glm::vec3 v) { return std::acos(std::clamp(glm::dot(v, up_), -1.0f, 1.0f)); };
     const glm::vec3 now = level(forward()), then = level(wanted);
@@ -152,7 +151,7 @@ void CameraControl::orbit(glm::vec2 pixels, float pixels_a_half_turn) {
     const glm::vec3 pivot = grabbed_.value_or(target());
     turn_about(pivot, -angle.x * handedness(), angle.y);
     if (!grabbed_)
-        move(pivot - target()); // the distance is exactly the one before, whatever was rounded
+        move(pivot - target()); // keeps the target in place despite rounding
 }
 
 void CameraControl::pan(glm::vec2 from, glm::vec2 to, glm::ivec2 size) {

@@ -63,7 +63,7 @@ bool has_halves(const Reference& reference) {
     return !reference.halves[0].empty();
 }
 
-/// The pixels at which not all of the images are finite.
+/// Returns the indices of pixels at which some image is not finite.
 std::vector<std::size_t> not_finite(std::initializer_list<const RgbImage*> images) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < (*images.begin())->size(); ++i)
@@ -92,26 +92,27 @@ std::optional<PictureError> error_to(const Reference& reference, const RgbImage&
     const RgbImage& b = halves ? reference.halves[1] : reference.image;
     if (picture.empty() || !same_size(picture, a))
         return std::nullopt;
-    const std::vector<std::size_t> left_out = not_finite({&picture, &a, &b});
-    if (left_out.size() == picture.size())
+    const std::vector<std::size_t> excluded = not_finite({&picture, &a, &b});
+    if (excluded.size() == picture.size())
         return std::nullopt;
-    // Pixels that are black in both add nothing to the sum, and the mean is then that of the others.
-    const FloorFreeError error = left_out.empty() ? measure(picture, a, b, halves)
-                                                  : measure(blackened(picture, left_out), blackened(a, left_out),
-                                                            blackened(b, left_out), halves);
+    // Pixels that are black in both images add nothing to the sum. Dividing by `share` excludes them from the
+    // mean.
+    const FloorFreeError error = excluded.empty() ? measure(picture, a, b, halves)
+                                                  : measure(blackened(picture, excluded), blackened(a, excluded),
+                                                            blackened(b, excluded), halves);
     const double share =
-        static_cast<double>(picture.size() - left_out.size()) / static_cast<double>(picture.size());
+        static_cast<double>(picture.size() - excluded.size()) / static_cast<double>(picture.size());
     if (!std::isfinite(error.relative_mse))
         return std::nullopt;
-    return PictureError{error.relative_mse / share, error.standard_error / share, left_out.size()};
+    return PictureError{error.relative_mse / share, error.standard_error / share, excluded.size()};
 }
 
 std::string caveat_of(const Reference& reference) {
     std::string text;
     if (!has_halves(reference))
-        text = "The reference has no halves: its own error, which is not known, is in these.";
+        text = "The reference has no halves: these errors include its own, unknown error.";
     if (reference.not_finite > 0)
-        text += fmt::format("{}{} of its pixels are not finite, and left out.", text.empty() ? "" : " ",
+        text += fmt::format("{}{} of its pixels are not finite and are left out.", text.empty() ? "" : " ",
                             reference.not_finite);
     return text;
 }

@@ -26,15 +26,15 @@ namespace tessera {
 
 class Scene;
 
-/// The data that charts show of a pane.
+/// Data of a pane's charts.
 struct PaneChart {
     std::vector<ErrorCurve> curves; ///< with at least one point, in the order of their newest points
-    std::uint64_t generation = 0;   ///< of the request that the curves are of
+    std::uint64_t generation = 0;   ///< request of the curves
     /// The reference of these errors; null: they are estimates from the samples (recon/metrics/sample_error.h).
     std::shared_ptr<const Reference> reference;
-    std::uint64_t shift_generation = 0;         ///< of the request that `shifts` is of
+    std::uint64_t shift_generation = 0;         ///< request of `shifts`
     PassHistory<ShiftPoint> shifts;             ///< without points if the method has no shifts
-    std::uint64_t histogram_generation = 0;     ///< of the request that the histogram is of
+    std::uint64_t histogram_generation = 0;     ///< request of the histogram
     std::shared_ptr<const Histogram> histogram; ///< of the newest picture; null: none is measured
 };
 
@@ -51,7 +51,7 @@ struct PaneCharts {
 
 inline constexpr int most_render_pixels_an_edge = 8192;
 
-/// How the number of rendered pixels is chosen.
+/// Choice of the rendered size.
 struct SizeChoice {
     enum class Base { pane, scene, custom };
     Base base = Base::pane; ///< size of the pane, of the scene's film, or `custom`
@@ -67,13 +67,13 @@ glm::ivec2 render_size(const SizeChoice& choice, glm::ivec2 film_size, glm::ivec
 
 struct Message {
     enum class Kind { note, error };
-    /// Subject: a scene's messages disappear with the scene, those of a failed load at the next load.
+    /// Subject. Messages about a scene disappear with the scene, those about a failed load at the next load.
     enum class Origin { viewer, scene, failed_load };
     Kind kind;
     std::string text;
     Origin origin = Origin::viewer;
-    std::vector<SampleChoice> samples{}; ///< that can be inspected
-    std::size_t next_sample = 0;         ///< index of the one that the message's button opens next
+    std::vector<SampleChoice> samples{}; ///< samples that the message's button opens in the path inspector
+    std::size_t next_sample = 0;         ///< index of the one that the button opens next
 };
 
 /// The reason why there is no scene although one was asked for.
@@ -82,32 +82,32 @@ struct SceneProblem {
     bool is_error = true; ///< false: the load was cancelled
 };
 
-/// Where the scene comes from, and how far the next one is.
+/// Source of the scene, and progress of the next load.
 struct SceneInfo {
     std::string name;
-    SceneSource source;              ///< without a file: the scene is in none
+    SceneSource source;              ///< without a file for a built-in scene
     int shown = 0;                   ///< number of scenes so far, reloads included
     std::string loading;             ///< step of the next scene's load; empty: none is loading
     SceneProblem problem;            ///< of the last load, while there is no scene
     std::vector<std::string> recent; ///< files, the newest first
 };
 
-/// Camera positions of this scene that the user keeps, in their order.
+/// Stored views of this scene, in the order in which they were added.
 struct Bookmarks {
     std::vector<Bookmark> views;
     int current = -1; ///< index of the last one visited or added; -1: none
 };
 
-/// How the panes render.
+/// State of rendering, for all panes.
 struct Rendering {
     SizeChoice size;
     glm::ivec2 latched_size{16, 9}; ///< Document::request_size()
     Pace pace;
     bool paused = false;
-    double patience = 0.5; ///< seconds after which a reconstruction under way is shown
+    double patience = 0.5; ///< seconds after which the progress of a reconstruction is shown
 };
 
-/// How all panes display their pictures.
+/// Display settings of all panes.
 struct Display {
     ImageView view;
     Tone tone;
@@ -122,8 +122,8 @@ struct Display {
 struct Document : PaneSet {
     std::shared_ptr<const Scene> scene; ///< null while the first is loading
     SceneInfo scene_info;
-    Companions companions;               ///< what some buffers need beside snapshots
-    std::optional<float> reference_read; ///< fraction of the next reference that is read, [0, 1]; empty: none is
+    Companions companions;
+    std::optional<float> reference_read; ///< progress of reading a reference, [0, 1]; empty: none is being read
     ReferenceMaking reference_making;
     PaneCharts charts;
     CameraControl camera;
@@ -135,7 +135,7 @@ struct Document : PaneSet {
     SpaceView space; ///< of the inspector or the slow motion
     std::vector<Message> messages;
 
-    /// Returns what `pane` is compared with: another pane or the_reference; itself if there is neither.
+    /// Returns the pane or the_reference with which `pane` is compared; `pane` itself if there is neither.
     int compared_with(int pane) const;
 
     /// Whether the pane's reconstruction has taken long enough to be shown.

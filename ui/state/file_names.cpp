@@ -13,25 +13,25 @@ namespace tessera {
 
 std::filesystem::path free_name(const std::filesystem::path& stem, const std::string& ending,
                                 const std::function<bool(const std::filesystem::path&)>& is_taken) {
-    std::error_code ignored; // a folder that cannot be looked into shows when the file is to be written
-    const auto is_there = [&](const std::filesystem::path& file) { // links to nowhere, too
+    std::error_code ignored; // an unreadable folder causes an error when the file is written
+    const auto exists = [&](const std::filesystem::path& file) { // includes dangling links
         return std::filesystem::exists(std::filesystem::symlink_status(file, ignored));
     };
     std::filesystem::path file = stem.string() + ending;
-    for (int n = 2; (is_taken && is_taken(file)) || is_there(file); ++n)
+    for (int n = 2; (is_taken && is_taken(file)) || exists(file); ++n)
         file = stem.string() + "-" + std::to_string(n) + ending;
     return file;
 }
 
 std::filesystem::path dated_file(const std::string& ending, const std::filesystem::path& wanted) {
-    static std::set<std::filesystem::path> given;
+    static std::set<std::filesystem::path> returned;
     const std::time_t now = std::time(nullptr);
     char stem[32];
     std::strftime(stem, sizeof stem, "tessera-%Y%m%d-%H%M%S", std::localtime(&now));
-    std::error_code ignored; // a current folder that is gone shows when the file is to be written
+    std::error_code ignored; // a deleted current folder causes an error when the file is written
     const std::filesystem::path folder = wanted.empty() ? std::filesystem::current_path(ignored) : wanted;
-    const auto is_given = [](const std::filesystem::path& file) { return given.contains(file); };
-    return *given.insert(free_name(folder / stem, ending, is_given)).first;
+    const auto is_returned = [](const std::filesystem::path& file) { return returned.contains(file); };
+    return *returned.insert(free_name(folder / stem, ending, is_returned)).first;
 }
 
 namespace {
@@ -73,10 +73,10 @@ std::vector<FileEntry> list_folder(const fs::path& folder, std::string_view exte
 }
 
 TypedPath typed_path(const std::string& whole) {
-    std::error_code ignored; // a current folder that is gone has no name
-    // A path that was put behind a folder ("/tmp//home/x.xml", "/tmp/~/x.xml") is meant alone.
-    const std::size_t again = std::max(whole.rfind("//") + 1, whole.rfind("/~/") + 1);
-    const std::string text = whole.substr(again);
+    std::error_code ignored; // a deleted current folder has no name
+    // An absolute path after a folder ("/tmp//home/x.xml", "/tmp/~/x.xml") replaces the folder.
+    const std::size_t start = std::max(whole.rfind("//") + 1, whole.rfind("/~/") + 1);
+    const std::string text = whole.substr(start);
     const std::size_t slash = text.rfind('/');
     if (slash == std::string::npos)
         return {fs::current_path(ignored), text};
@@ -113,9 +113,9 @@ std::string common_beginning(const std::vector<FileEntry>& entries) {
 }
 
 std::string short_path(const std::string& file) {
-    std::error_code gone; // the current folder
-    const fs::path path = fs::path(file).lexically_relative(fs::current_path(gone));
-    return gone || path.empty() || *path.begin() == ".." ? file : path.string();
+    std::error_code error; // the current folder may be deleted
+    const fs::path path = fs::path(file).lexically_relative(fs::current_path(error));
+    return error || path.empty() || *path.begin() == ".." ? file : path.string();
 }
 
 } // namespace tessera

@@ -19,7 +19,7 @@ UndoPoint point_of(const Document& document) {
 }
 
 void take(const UndoPoint& point, Document& document) {
-    document.linked = false; // whose settings would be shared out meanwhile
+    document.linked = false; // set_pane_count() would copy the settings of linked panes
     document.set_pane_count(static_cast<int>(point.panes.size()));
     for (std::size_t i = 0; i < point.panes.size(); ++i)
         document.panes[i].settings = point.panes[i];
@@ -53,7 +53,7 @@ void History::go(Document& document, std::deque<UndoPoint>& from, std::deque<Und
     now_ = std::move(from.back());
     from.pop_back();
     take(*now_, document);
-    now_ = point_of(document); // a camera comes back as near as rounding lets it
+    now_ = point_of(document); // the camera can differ from the stored one by rounding
 }
 
 } // namespace tessera

@@ -8,28 +8,28 @@
 
 namespace tessera {
 
-/// What of the document can be taken back: what a user sets of the pictures, and from where they are seen.
+/// The part of the document that undo restores: settings of the pictures, and the camera.
 struct UndoPoint {
     std::vector<PaneSettings> panes;
     bool linked = true;
     SizeChoice size;
     Camera camera;
-    float camera_distance = 1; ///< to its target
+    float camera_distance = 1; ///< to the camera's target
     Tone tone;
 
     bool operator==(const UndoPoint&) const = default;
 };
 
-/// The points that the document has been at since its scene was loaded first, to go back to, and forth again.
+/// Undo history of the document.
 class History {
 public:
-    /// Takes down where the document is. While something is held (a drag, a key), it is on its way, and nothing is
-    /// taken down: a drag is one step.
+    /// Adds the document's state if it has changed. Adds nothing while a button or key is held, so that a whole
+    /// drag is one step.
     void note(const Document& document, bool is_held);
 
     bool can_undo() const { return !before_.empty(); }
     bool can_redo() const { return !after_.empty(); }
-    /// Takes the document to the point before, or after; nothing where there is none.
+    /// Restores the previous or the next state, if there is one.
     void undo(Document& document) { go(document, before_, after_); }
     void redo(Document& document) { go(document, after_, before_); }
 
@@ -37,8 +37,8 @@ private:
     static constexpr std::size_t most_points = 200;
     void go(Document& document, std::deque<UndoPoint>& from, std::deque<UndoPoint>& to);
 
-    std::deque<UndoPoint> before_, after_; // the nearest last
-    std::optional<UndoPoint> now_;         // empty: nothing was taken down yet
+    std::deque<UndoPoint> before_, after_; // nearest to the present last
+    std::optional<UndoPoint> now_;         // the present state; empty before the first note()
 };
 
 } // namespace tessera

@@ -15,14 +15,14 @@ namespace tessera {
 
 namespace {
 
-constexpr float rest = 1.5f; // seconds that a whole tile stays
-constexpr float haste = 6;   // past base paths that share nothing
+constexpr float rest_seconds = 1.5f; // display time of a finished tile
+constexpr float dark_speed_up = 6;   // for base paths without light to reuse
 
 } // namespace
 
 void SlowMotion::start(const SampleChoice& choice) {
     sample = choice;
-    if (shows_choice()) // else take() will
+    if (shows_choice()) // otherwise take() rewinds
         rewind();
 }
 
@@ -51,7 +51,7 @@ bool SlowMotion::advance(float seconds) {
     if (!is_playing())
         return false;
     const int count = tile->base_count();
-    const auto pace = [&] { return set().base(place().base).reuse.is_dark() ? haste * speed : speed; };
+    const auto pace = [&] { return set().base(place().base).reuse.is_dark() ? dark_speed_up * speed : speed; };
     float left = seconds;
     while (current < count && arrived + left * pace() >= 1) {
         left -= (1 - arrived) / pace();
@@ -64,7 +64,7 @@ bool SlowMotion::advance(float seconds) {
         return false;
     arrived = 1;
     rested += left;
-    return rested >= rest;
+    return rested >= rest_seconds;
 }
 
 void SlowMotion::step(int by) {
@@ -72,7 +72,7 @@ void SlowMotion::step(int by) {
     if (!tile)
         return;
     if (by > 0 && arrived < 1)
-        --current; // the one on its way arrives
+        --current; // completes the current one
     current = std::clamp(current + by, 0, std::max(tile->base_count() - 1, 0));
     arrived = 1;
     rested = 0;
@@ -105,15 +105,16 @@ struct Outcome {
 };
 
 constexpr Outcome table[] = {
-    // in the order of the enumeration
-    {IM_COL32(72, 214, 140, 255), "At least one light path of the base path came through to the other pixel."},
-    {IM_COL32(255, 84, 84, 255), "Every new edge of the offset path is blocked."},
+    // in the order of ShiftOutcome
+    {IM_COL32(72, 214, 140, 255), "At least one light path of the base path contributes to the other pixel."},
+    {IM_COL32(255, 84, 84, 255), "No light path contributes, and a new edge of the offset path is occluded."},
     {IM_COL32(255, 160, 60, 255),
-     "Base and offset vertex scatter in different ways, so that the way back would be another."},
-    {IM_COL32(190, 120, 255, 255), "There is no refracted direction for the half vector."},
+     "Base and offset vertex scatter in different ways, or only one of their edges is long enough to connect, so "
+     "that the shift has no inverse."},
+    {IM_COL32(190, 120, 255, 255),
+     "The half vector has no refracted direction at the offset vertex: total internal reflection."},
     {IM_COL32(90, 160, 255, 255), "A ray left the scene, or the other pixel sees nothing."},
-    {IM_COL32(150, 150, 158, 255),
-     "The offset path carries nothing: its BSDF is black there, or it hits no light."},
+    {IM_COL32(150, 150, 158, 255), "The offset path carries no light: its BSDF is zero, or it hits no emitter."},
 };
 static_assert(std::size(table) == shift_outcome_count);
 

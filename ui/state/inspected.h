@@ -23,55 +23,54 @@ struct InspectedSet;
 struct Inspection;
 struct TileInspection;
 
-/// What a render is made of: enough to take its samples again, whatever is on show by now.
+/// Inputs of a render, from which its samples can be traced again.
 struct PassOrigin {
     std::shared_ptr<const Scene> scene;
     Camera camera;
     glm::ivec2 size{0};
     RenderSettings settings;
-    std::shared_ptr<const LearnedReuse> learned{}; ///< of the pass; null: it is to be learnt again
-    std::uint64_t generation = 0;                  ///< of the request; 0: no pane's
+    std::shared_ptr<const LearnedReuse> learned{}; ///< of the pass; null: must be learned again
+    std::uint64_t generation = 0;                  ///< of the request; 0: not of a pane
 };
 
-/// One sample of one pixel that is to be looked at.
+/// A sample of a pixel, chosen for inspection.
 struct SampleChoice {
-    int slot = 0; ///< of its pane (PaneState::slot), wherever that is shown
+    int slot = 0; ///< of its pane (PaneState::slot)
     glm::ivec2 pixel{0};
     std::optional<int> pass;                    ///< from 0; empty: the newest
-    std::shared_ptr<const PassOrigin> origin{}; ///< of the pass; null: what the pane shows
+    std::shared_ptr<const PassOrigin> origin{}; ///< of the pass; null: the pane's present render
 
     bool operator==(const SampleChoice&) const = default;
 };
 
-/// The sample that is looked at, and what is shown of it.
+/// State of the path inspector.
 struct Inspector {
     enum class Direction {
-        to_pixel,   ///< which base paths reach the pixel
-        from_pixel, ///< where the pixel's own path is taken
+        to_pixel,   ///< shifts of other pixels' base paths to the pixel
+        from_pixel, ///< shifts of the pixel's base path to other pixels
     };
-    bool active = false; ///< the mouse chooses a pixel
+    bool active = false; ///< the left mouse button chooses a pixel
     std::optional<SampleChoice> sample;
     Direction direction = Direction::to_pixel;
-    bool follows = false; ///< from pass to pass, not a given one; otherwise the one that was the newest stays
-    int marked = -1;      ///< the row of the table under the mouse; -1: none
-    int chosen = -1;      ///< the row whose vertices are listed; -1: those of the base path are
+    bool follows = false; ///< shows each new pass; otherwise keeps the one that was the newest when chosen
+    int marked = -1;      ///< row of the table under the mouse; -1: none
+    int chosen = -1;      ///< row whose vertices are listed; -1: the base path's vertices are listed
 
-    /// The newest that has been found out; null: nothing yet.
-    std::shared_ptr<const Inspection> inspection;
-    float scene_radius = 0;       ///< of the scene that it was found out from
-    std::uint64_t generation = 0; ///< of the request that it was found out from
-    int slot = 0;                 ///< of the pane whose it is, if that still shows this request
+    std::shared_ptr<const Inspection> inspection; ///< the newest result; null before the first
+    float scene_radius = 0;                       ///< of the inspection's scene
+    std::uint64_t generation = 0;                 ///< of the inspection's request
+    int slot = 0;                                 ///< of the inspection's pane, while it shows this request
 
     int shown_row() const { return marked >= 0 ? marked : chosen; }
     void choose(const SampleChoice& choice) {
         if (sample != choice)
             chosen = -1;
         if (sample != choice && choice.pass)
-            inspection.reset(); // it may take a while
+            inspection.reset(); // a given pass can take long to trace
         follows = follows && !choice.pass;
         sample = choice;
     }
-    /// Looks at the newest pass from now on, of what the pane of the sample shows; or no longer.
+    /// Starts or stops following the newest pass of the sample's pane.
     void follow(bool on) {
         follows = on;
         if (on && sample)
@@ -79,81 +78,80 @@ struct Inspector {
     }
 };
 
-/// One tile of a pass, whose base paths arrive one after the other.
+/// State of the slow motion, which shows the base paths of one tile and pass one by one.
 struct SlowMotion {
-    static constexpr float least_speed = 0.25f, most_speed = 60;
+    static constexpr float least_speed = 0.25f, most_speed = 60; ///< base paths per second
 
-    /// The base path that arrives, in which of the tile's sampling sets.
+    /// A base path, by the index of its sampling set in the tile and its index in the set.
     struct Place {
         int set = 0, base = 0;
     };
 
     bool active = false;
-    bool held = false;                  ///< waits for steps by hand
-    float speed = 3;                    ///< base paths a second
-    std::optional<SampleChoice> sample; ///< a pixel of the tile; empty: it is to be found
+    bool held = false;                  ///< paused
+    float speed = 3;                    ///< base paths per second
+    std::optional<SampleChoice> sample; ///< a pixel of the chosen tile; empty: none is chosen
 
-    /// The newest that has been found out; null: nothing yet.
-    std::shared_ptr<const TileInspection> tile;
-    int slot = 0;                 ///< of the pane whose it is
-    std::uint64_t generation = 0; ///< of the request that it was found out from
+    std::shared_ptr<const TileInspection> tile; ///< the newest result; null before the first
+    int slot = 0;                               ///< of the tile's pane
+    std::uint64_t generation = 0;               ///< of the tile's request
 
-    int current = 0;    ///< base path of the tile, over all its sets; base_count(): all have arrived
-    float arrived = 0;  ///< how far that has come, [0, 1]
-    float rested = 0;   ///< seconds since all have arrived
-    bool frames = true; ///< the picture is to be moved and enlarged, so that the tile is seen well
-    std::optional<ImageView> view_before; ///< the picture goes back to it
+    int current = 0;    ///< index of the base path over all sets of the tile; base_count(): all are shown
+    float arrived = 0;  ///< progress of its animation, [0, 1]
+    float rested = 0;   ///< seconds since the last base path was shown
+    bool frames = true; ///< the next frame zooms the picture to the tile
+    std::optional<ImageView> view_before; ///< view to restore at the end
 
     void start(const SampleChoice& choice);
     void rewind();
-    /// A tile that was asked for is there.
+    /// Sets a traced tile, and rewinds.
     void take(std::shared_ptr<const TileInspection> found, int of_slot, std::uint64_t of_generation);
-    /// Lets time go by. True: the tile is over, and the next one is due.
+    /// Advances the animation. Returns whether the tile has ended and the next one is due.
     bool advance(float seconds);
-    /// Goes one base path on, or back, and waits there.
+    /// Pauses, and moves by `by` base paths. A step forward first completes the current one.
     void step(int by);
-    bool shows_choice() const;
+    bool shows_choice() const; ///< whether `tile` contains the chosen sample
     bool is_playing() const { return active && shows_choice() && !held; }
 
-    /// The place of the base path that arrives; the last one's once all have.
+    /// Returns the place of the current base path, or of the last one at the end.
     Place place() const;
-    const InspectedSet& set() const; ///< that of place()
-    /// A pixel of the tile to the right of this, or of the first one in the row below; after the last the first.
+    const InspectedSet& set() const; ///< the set of place()
+    /// Returns a pixel of the next tile: to the right, else the first in the row below, else the first of all.
     glm::ivec2 next_pixel(glm::ivec2 size) const;
 };
 
-/// What is hinted at around paths in space: what a camera sees first, and where lamps are.
+/// Background of the 3D view of paths: points that a camera sees first, and points on emitters.
 struct Surroundings {
     Camera camera;
-    glm::ivec2 size{1}; ///< of its picture
+    glm::ivec2 size{1}; ///< of the camera's picture, pixels
     std::vector<glm::vec3> points;
-    std::vector<Rgb> albedo; ///< one a point
+    std::vector<Rgb> albedo; ///< one per point
     std::vector<glm::vec3> lamps;
 };
 
-/// The small view of paths in space.
+/// State of the 3D view of paths.
 struct SpaceView {
     CameraControl camera;
-    bool fits = true;                                 ///< is to show the whole path, from where it looks
-    bool has_direction = false;                       ///< it has a direction to look in
-    std::shared_ptr<const Surroundings> surroundings; ///< null: none yet
+    bool fits = true;                                 ///< the next frame moves the camera to see the whole path
+    bool has_direction = false;                       ///< the camera's direction is set
+    std::shared_ptr<const Surroundings> surroundings; ///< null before they are traced
 
-    /// Is to look where another camera does, from where it then sees the whole path.
+    /// Takes the direction of another camera, and fits the path.
     void look_as(const Camera& other) {
         camera.put(other, 1);
         fits = has_direction = true;
     }
 };
 
-/// The colour that stands for how a shift ended, wherever that is shown.
+/// Returns the display colour of a shift outcome.
 ImU32 outcome_colour(ShiftOutcome outcome);
-/// What it means, in a sentence.
+/// Returns a sentence that explains the outcome.
 const char* outcome_help(ShiftOutcome outcome);
 
-/// Display colours: of each pixel the mean of its shifts' colours. Black where none was tried.
+/// Returns display colours: the mean of the outcomes' colours of each pixel's shifts, black without shifts.
 RgbImage outcome_colours(const ReuseMaps& maps);
 
-/// How the shifts to a pixel ended, most of them first: "ok 71 %, occluded 20 %, no light 9 %".
+/// Returns the outcomes of the shifts to a pixel, the most frequent first: "ok 71 %, occluded 29 %".
 std::string outcome_shares(const ReuseCounts& counts);
 
 } // namespace tessera

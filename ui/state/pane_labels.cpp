@@ -12,7 +12,7 @@ namespace tessera {
 
 namespace {
 
-/// All that makes the picture, but the method, which is no difference: it is named first.
+/// Returns the settings that affect a picture, except the method.
 std::vector<Setting> picture_settings(PaneSettings& pane) {
     std::vector<Setting> all = settings_of(pane.render);
     for (const Setting& setting : settings_of(pane.reconstruction, has_gradients(pane.render.method)))
@@ -21,7 +21,7 @@ std::vector<Setting> picture_settings(PaneSettings& pane) {
     return all;
 }
 
-/// "Max depth" as it stands within a sentence; "RR delta" stays.
+/// Returns "max depth" for "Max depth"; keeps labels that start with an abbreviation, such as "RR delta".
 std::string lower(std::string_view label) {
     std::string text(label);
     if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])))
@@ -29,7 +29,7 @@ std::string lower(std::string_view label) {
     return text;
 }
 
-/// "tile 6", "L1", "roulette absolute".
+/// Returns "tile 6", "L1" or "roulette absolute".
 std::string in_short(const Setting& setting) {
     const auto* one = std::get_if<Setting::OneOf>(&setting.kind);
     const std::string value = one ? std::string(one->choices[one->get()].label) : setting.text();
@@ -41,15 +41,16 @@ std::string in_short(const Setting& setting) {
 std::string differences(const PaneSettings& settings, std::span<const PaneSettings> others) {
     PaneSettings own = settings;
     const std::vector<Setting> mine = picture_settings(own);
-    std::vector<bool> tells(mine.size());
+    std::vector<bool> differs(mine.size());
     for (PaneSettings other : others) {
         const std::vector<Setting> theirs = picture_settings(other);
         for (std::size_t i = 0; i < mine.size(); ++i)
-            tells[i] = tells[i] || (mine[i].matters && theirs[i].matters && mine[i].text() != theirs[i].text());
+            differs[i] =
+                differs[i] || (mine[i].matters && theirs[i].matters && mine[i].text() != theirs[i].text());
     }
     std::string text;
     for (std::size_t i = 0; i < mine.size(); ++i)
-        if (tells[i])
+        if (differs[i])
             text += (text.empty() ? "" : ", ") + in_short(mine[i]);
     return text;
 }

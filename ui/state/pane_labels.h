@@ -7,14 +7,14 @@
 
 namespace tessera {
 
-/// What tells a picture with these settings from the others: "tile 6, L1". Only what makes a difference to both
-/// counts: a tile does not tell PT from G-PR. Empty: nothing does but the method, if that.
+/// Returns the settings, apart from the method, that distinguish a picture from the others: "tile 6, L1". A
+/// setting counts only if it affects both pictures. Empty: no such setting differs.
 std::string differences(const PaneSettings& settings, std::span<const PaneSettings> others);
 
-/// "G-PR", or as much more as tells it from the others: "G-PR, tile 6, L1".
+/// Returns the method and differences(): "G-PR, tile 6, L1".
 std::string picture_label(const PaneSettings& settings, std::span<const PaneSettings> others);
 
-/// The label of a pane's picture among those of all panes.
+/// Returns picture_label() of a pane among all panes.
 std::string pane_label(const Document& document, int pane);
 
 } // namespace tessera

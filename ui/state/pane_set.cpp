@@ -9,8 +9,8 @@ namespace tessera {
 
 namespace {
 
-/// Returns the methods of so many panes: all four in the order of the table, or of fewer panes the most different
-/// ones first.
+/// Returns the methods of `count` panes: all four in the order of the table, or for fewer panes the most different
+/// methods first.
 const std::array<Method, 4>& order_of_methods(int count) {
     static constexpr std::array table = {Method::pt, Method::pr, Method::gpt, Method::gpr},
                                 few = {Method::pt, Method::gpr, Method::gpt, Method::pr};
@@ -83,7 +83,7 @@ static void arrange(PaneSet& set, int count) {
             panes.begin());
     };
     set.active_pane = index_of(active);
-    for (PaneState& pane : panes) // the panes that they are compared with have moved
+    for (PaneState& pane : panes) // updates the indices of compared panes
         if (int& with = pane.settings.comparison.with; with >= 0 && with < most_panes)
             with = index_of(before[with].slot);
 }

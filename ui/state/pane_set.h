@@ -14,15 +14,15 @@
 namespace tessera {
 
 inline constexpr int most_panes = 4;
-/// Stands for the reference where a pane's index stands otherwise.
+/// Index of the reference, wherever a pane's index is expected.
 inline constexpr int the_reference = most_panes;
 
 /// How a pane compares its picture with another pane's.
 struct Comparison {
     enum class Kind {
         off,
-        wipe,       ///< its own to the left of a line, the other's to the right
-        difference, ///< its own minus the other's, in +/- colours
+        wipe,       ///< its own picture to the left of a line, the other's to the right
+        difference, ///< its own picture minus the other's, in signed colours
     };
     Kind kind = Kind::off;
     int with = -1; ///< the other pane, or the_reference; an index without a pane means the next pane
@@ -40,7 +40,7 @@ struct PaneSettings {
     bool operator==(const PaneSettings&) const = default;
 };
 
-/// Returns the reconstruction that the pane's method applies: without gradients, raw samples replace most of them.
+/// Returns the reconstruction that the pane's method applies: without gradients, often raw samples.
 Norm applied_norm(const PaneSettings& pane);
 
 /// Returns the initial settings of 1 to 4 panes: G-PR alone, PT and G-PR, these with G-PT, or all four methods.

@@ -22,7 +22,7 @@ std::filesystem::path default_reference_file(const Document& document) {
         const std::string text = camera_json(camera);
         name += fmt::format("-view-{:08x}", checksum(std::as_bytes(std::span(text.data(), text.size()))));
     }
-    std::error_code ignored; // a current folder that is gone shows when the file is to be written
+    std::error_code ignored; // a deleted current folder causes an error when the file is written
     return reference_file(std::filesystem::current_path(ignored), name, document.request_size(),
                           document.active().settings.render.max_depth);
 }

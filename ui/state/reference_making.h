@@ -12,43 +12,43 @@ namespace tessera {
 
 struct Document;
 
-/// How far a reference is.
+/// Progress of rendering a reference.
 struct ReferenceProgress {
     std::filesystem::path file;
-    int spp = 0, spp_wanted = 0;         ///< of both halves
-    int spp_resumed = 0;                 ///< those that a checkpoint had
-    double seconds_left = 0;             ///< infinite: not known yet
-    std::optional<FloorFreeError> error; ///< of the mean of its halves so far
-    bool is_ending = false;              ///< it was cancelled, and writes its checkpoint
+    int spp = 0, spp_wanted = 0;         ///< of both halves together
+    int spp_resumed = 0;                 ///< spp from the checkpoint
+    double seconds_left = 0;             ///< infinite: unknown
+    std::optional<FloorFreeError> error; ///< of the mean of both halves so far
+    bool is_ending = false;              ///< cancelled, and writing its checkpoint
 
     double share() const { return static_cast<double>(spp) / spp_wanted; }
 };
 
-/// A reference that the viewer makes of what its panes show: what is asked for, and how far it is.
+/// Settings and progress of a reference that the viewer renders for the view of its panes.
 struct ReferenceMaking {
-    bool show = false; ///< its dialog
+    bool show = false; ///< whether the dialog is open
     Method method = Method::gpr;
     int spp = 512;
     std::array<char, 1024> file{}; ///< empty: default_reference_file()
-    bool anew = false;             ///< whatever checkpoint there is
+    bool anew = false;             ///< ignores a checkpoint
 
-    std::optional<ReferenceProgress> progress; ///< while it is made
+    std::optional<ReferenceProgress> progress; ///< empty: none is being rendered
 
     bool is_making() const { return progress.has_value(); }
 };
 
-/// A file in the current folder, named as `tessera bench` names references: after scene, size, depth, and the
-/// camera unless it is the scene's.
+/// Returns a file in the current folder with the name that `tessera bench` uses: scene, size, depth, and a
+/// checksum of the camera unless it is the scene's.
 std::filesystem::path default_reference_file(const Document& document);
 
-/// The file that the dialog asks for, in full; its name ends in .exr.
+/// Returns the absolute path of the dialog's file; it ends in .exr.
 std::filesystem::path wanted_reference_file(const Document& document);
 
-/// How many seconds a reference will take if nothing else is rendered, by what a pane has taken, one of the same
-/// method if there is any. Empty: no pane has a picture.
+/// Estimates the seconds for the reference if nothing else is rendered, from the time per pass of a pane,
+/// preferably of one with the same method. Empty: no pane has a full pass.
 std::optional<double> estimated_seconds(const Document& document);
 
-/// "45 s", "12 min", "3 h 5 min".
+/// Returns "45 s", "12 min" or "3 h 5 min".
 std::string duration_text(double seconds);
 
 } // namespace tessera

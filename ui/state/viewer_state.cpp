@@ -75,7 +75,7 @@ void ViewerState::add_refused(const std::string& whose, const Counters& counters
         return;
     add_message(Message::Kind::note, whose + ": " + refused_text(counters, origin.settings.seed),
                 Message::Origin::scene);
-    if (origin.scene != scene) // replaced by now: it would be kept as long as the new one's messages are
+    if (origin.scene != scene) // another scene is loaded: the samples would keep the old one in memory
         return;
     const auto kept = std::make_shared<const PassOrigin>(origin);
     for (const RefusedSample& refused : counters.first_refused.list())

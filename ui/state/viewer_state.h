@@ -16,53 +16,53 @@
 
 namespace tessera {
 
-/// What is to be saved: at most one of each kind, with its file.
+/// Requested saves, at most one per kind.
 class SaveWishes {
 public:
-    /// Adds one, to that file; empty: to the one that was chosen before, or else one named by what it is and the
-    /// date.
+    /// Adds a save to `file`. Empty: to the file of a previous add() of this kind, or else to a file named after
+    /// kind and date.
     void add(SaveKind kind, std::string file = {});
     bool has(SaveKind kind) const { return files_[static_cast<std::size_t>(kind)].has_value(); }
     bool has_any() const;
-    /// Its file, or an empty name; the wish is gone with that, whatever becomes of it. Nothing: there is none.
+    /// Removes the save of this kind, and returns its file, which may be an empty name. Empty: there is none.
     std::optional<std::string> take(SaveKind kind);
 
 private:
     std::array<std::optional<std::string>, enumerator_count<SaveKind>> files_;
 };
 
-/// What panels, actions and the mouse ask for. Who fulfils a wish clears it.
+/// Requests of panels, actions and the mouse. The code that executes a request clears it.
 struct Wishes {
-    bool redraw = false;           ///< something has come since the last frame was drawn, and is to be seen
-    bool scroll_to_newest = false; ///< of the list of messages
+    bool redraw = false;           ///< draw another frame
+    bool scroll_to_newest = false; ///< scroll the list of messages to its end
     bool quit = false;
-    bool auto_exposure = false; ///< the exposure and the range that show the active pane's picture
+    bool auto_exposure = false; ///< fit exposure or false-colour range to the active pane's picture
 
-    // These are for the session.
+    // For the session.
     bool restart = false;
-    int steps = 0;                        ///< passes to do though paused
-    bool give_up_reconstructions = false; ///< those under way for long
+    int steps = 0;                        ///< passes to render while paused
+    bool give_up_reconstructions = false; ///< cancel those that have run for long
 
-    // These are for what is read. An empty name is no file. Settings wait until no scene is on its way.
-    bool reload = false; ///< the scene on show
+    // Files to read; an empty name is no request. Settings are read after a scene's load ends.
+    bool reload = false; ///< load the present scene again
     std::string open_scene;
-    bool open_built_in = false; ///< the scene within the program
+    bool open_built_in = false; ///< open the built-in scene
     std::string open_reference;
     std::string open_settings;
-    std::string follow_jobs;       ///< a folder
-    bool cancel_scene = false;     ///< the one that is being loaded
-    bool cancel_reference = false; ///< the one that is being read
+    std::string follow_jobs;       ///< folder to follow
+    bool cancel_scene = false;     ///< cancel the load of a scene
+    bool cancel_reference = false; ///< cancel reading a reference
 
-    // These are for what is saved or made.
+    // Things to save or make.
     SaveWishes saves;
-    bool copy_camera = false;    ///< to the clipboard
-    bool make_reference = false; ///< as ViewerState::reference_making says
-    bool stop_making = false;    ///< that reference
+    bool copy_camera = false;    ///< copy the camera to the clipboard
+    bool make_reference = false; ///< render a reference as set in ViewerState::reference_making
+    bool stop_making = false;    ///< cancel that render
 };
 
-/// Everything that panels, actions and the mouse may change. They do no more than that: the viewer compares the
-/// state with what it last asked of the session, and sends what differs. The document is a base, as most that is
-/// said of the state is said of it: state.panes, but state.layout.show_help and state.wishes.reload.
+/// Everything that panels, actions and the mouse can change. They change only this state; the viewer compares it
+/// with its last requests to the session, and sends the differences. Document is a base class for short access:
+/// state.panes, but state.layout.show_help and state.wishes.reload.
 struct ViewerState : Document {
     Layout layout;
     Wishes wishes;
@@ -70,29 +70,30 @@ struct ViewerState : Document {
 
     bool is_on_show(int pane) const { return !layout.alone || pane == active_pane; }
 
-    /// The size that the choice and the panes on show now come to, pixels.
+    /// Returns the render size that results from the size choice and the visible panes, pixels.
     glm::ivec2 fitting_size() const;
 
     /// Opens a sample in the path inspector.
     void inspect(const SampleChoice& sample);
-    /// Opens one of the active pane, which gets that seed (with the others, where they are linked).
+    /// Opens a sample of the active pane. Sets the seed of this pane, and of all panes if they are linked.
     void inspect(glm::ivec2 pixel, int pass, std::uint64_t seed);
 
-    /// Adds a message; an error opens the list at its end.
+    /// Adds a message. An error opens the list of messages at its end.
     void add_message(Message::Kind kind, std::string text, Message::Origin origin = Message::Origin::viewer);
 
-    /// Adds a note, and shows it over the pictures for a while.
+    /// Adds a note, and shows it as a toast.
     void tell(std::string text);
 
-    /// Wishes that it is saved: SaveWishes::add.
+    /// Requests a save, see SaveWishes::add().
     void save(SaveKind kind, std::string file = {}) { wishes.saves.add(kind, std::move(file)); }
 
-    /// Adds a note on samples of the scene that a render refused, the first few of which can be inspected if the
-    /// scene is still on show. Adds nothing where there are none. `whose` begins it; `slot` is of the pane that
-    /// rendered it, or in which the samples are shown.
+    /// Adds a note about a render's invalid samples, if there are any. The first few can be inspected while the
+    /// scene is loaded.
+    /// @param whose  begins the message
+    /// @param slot   pane of the render, or in which the samples are shown
     void add_refused(const std::string& whose, const Counters& counters, int slot, const PassOrigin& origin);
 
-    /// Takes away the messages of that origin. Closes the list if that leaves no error of some.
+    /// Removes the messages of this origin. Closes the list if that removes the last error.
     void drop_messages(Message::Origin origin);
 };
 

@@ -65,7 +65,7 @@ TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
     EXPECT_GT(before.back().standard_error, 0);
     EXPECT_LT(before.back().error, errors(0).back().error); // sharing pays
     char error[48];
-    std::snprintf(error, sizeof error, "   samples' relMSE ~%.3g", before.back().error);
+    std::snprintf(error, sizeof error, "   estimated relMSE %.3g", before.back().error);
     EXPECT_NE(status_text(state(), 1).find(error), std::string::npos) << status_text(state(), 1);
     type(Key::h);
     frames(2);

@@ -102,7 +102,7 @@ TEST_F(Explained, ValuesSayWhatTheyAre) {
     EXPECT_NE(help_of("depth").find("in units"), std::string::npos);
     EXPECT_EQ(help_of("depth").find("luminance"), std::string::npos);
     EXPECT_NE(help_of("survival").find("in %"), std::string::npos);
-    EXPECT_NE(help_of("outcomes").find("shares of the shifts"), std::string::npos);
+    EXPECT_NE(help_of("outcomes").find("outcomes of the shifts"), std::string::npos);
     EXPECT_NE(help_of("normal").find("x, y and z"), std::string::npos);
     EXPECT_NE(help_of("primal").find("luminance (Y)"), std::string::npos);
 }

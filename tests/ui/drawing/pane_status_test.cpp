@@ -22,7 +22,7 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     EXPECT_EQ(status_text(state, 0), "G-PR   starting");
     pane.generation = 3;
     pane.pass_share = 0.371f;
-    EXPECT_EQ(status_text(state, 0), "G-PR   first look 37 %");
+    EXPECT_EQ(status_text(state, 0), "G-PR   preview 37 %");
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->generation = pane.generation = 4;
     snapshot->spp = 12;
@@ -43,6 +43,10 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     EXPECT_FALSE(says("fireflies"));
     reconstruction->redistributed = 0.77;
     EXPECT_TRUE(says("fireflies: 77 % redistributed"));
+    EXPECT_EQ(status_help(state, 0),
+              "Method: G-PR\nSamples per pixel: 12 spp\nWall time of this pane's passes: 2.00 s\n"
+              "Rays per second: 2.5 Mrays/s\nReconstruction (pass, solver steps, wall time): "
+              "reconstruction of pass 11, 1 step in 0.021 s\nfireflies: 77 % redistributed");
     reconstruction->redistributed = 0;
     pane.reconstructing = {12, 0.2, 0.06f};
     EXPECT_FALSE(says("reconstructing"));
@@ -96,20 +100,20 @@ TEST(PaneStatus, TellsWhichPaneCatchesUp) {
     had(0, 900, 600);
     had(1, 40, 190);
     had(2, 800, 599);
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (3:10 of 10:00; R: all anew)");
+    EXPECT_EQ(waiting_text(state, 0), "equal time: waiting for pane 2 (190 of 600 s)");
     EXPECT_EQ(waiting_text(state, 1), "");
-    EXPECT_EQ(waiting_text(state, 2), "waiting for pane 2 (3:10 of 9:59; R: all anew)");
+    EXPECT_EQ(waiting_text(state, 2), "equal time: waiting for pane 2 (190 of 599 s)");
     EXPECT_NE(status_text(state, 0).find("waiting for pane 2"), std::string::npos);
     state.panes[1].generation = 8; // a new request: it has had nothing
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (0:00 of 10:00; R: all anew)");
+    EXPECT_EQ(waiting_text(state, 0), "equal time: waiting for pane 2 (0 of 600 s)");
     state.rendering.pace.equal = Pace::Equal::spp;
     had(1, 40, 190);
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 2 (40 of 900 spp; R: all anew)");
+    EXPECT_EQ(waiting_text(state, 0), "equal samples: waiting for pane 2 (40 of 900 spp)");
     state.rendering.pace.spp_limit = 40; // nobody waits for one that rests
     EXPECT_EQ(waiting_text(state, 0), "");
     state.rendering.pace.spp_limit = 0;
     state.panes[1].failed = true;
-    EXPECT_EQ(waiting_text(state, 0), "waiting for pane 3 (800 of 900 spp; R: all anew)");
+    EXPECT_EQ(waiting_text(state, 0), "equal samples: waiting for pane 3 (800 of 900 spp)");
     state.rendering.paused = true;
     EXPECT_EQ(waiting_text(state, 0), "");
 }

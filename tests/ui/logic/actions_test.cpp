@@ -198,7 +198,7 @@ TEST(Actions, BuffersInAllPanes) {
     action("Roulette survival").run(state);
     EXPECT_TRUE(action("Roulette survival").checked(state));
     type(state, key(Key::digit1));
-    EXPECT_TRUE(action("Reconstruction").checked(state));
+    EXPECT_TRUE(action("Result").checked(state));
     EXPECT_FALSE(action("Primal").checked(state));
 }
 

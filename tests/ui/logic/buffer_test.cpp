@@ -94,8 +94,8 @@ TEST(Buffer, OfTheBasisWhereThereIsOne) {
     snapshot.settings.basis = Basis::none;
     for (Buffer buffer : {Buffer::coefficient, Buffer::mean_albedo, Buffer::sampled_albedo, Buffer::covariance}) {
         EXPECT_FLOAT_EQ(first(snapshot, buffer), -1);
-        EXPECT_NE(missing_text(&snapshot, Method::gpr, buffer, {}).find("Basis is none"), std::string::npos);
-        EXPECT_EQ(missing_text(nullptr, Method::pt, buffer, {}), "PT divides by no albedo");
+        EXPECT_NE(missing_text(&snapshot, Method::gpr, buffer, {}).find("The basis is none"), std::string::npos);
+        EXPECT_EQ(missing_text(nullptr, Method::pt, buffer, {}), "PT does not demodulate the albedo");
     }
 }
 
@@ -126,8 +126,8 @@ TEST(Buffer, OfAPartWhereOneIsWanted) {
     EXPECT_FLOAT_EQ(first_of(Buffer::dx, 0), 0.3f);
     EXPECT_FLOAT_EQ(first_of(Buffer::dy_variance, 0), 0.1f);
     snapshot.settings.basis = Basis::albedo;
-    EXPECT_NE(missing_text(&snapshot, Method::gpr, Buffer::projection, {}).find("no parts"), std::string::npos);
-    EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::projection, {}).find("no parts"), std::string::npos);
+    EXPECT_NE(missing_text(&snapshot, Method::gpr, Buffer::projection, {}).find("one component"), std::string::npos);
+    EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::projection, {}).find("no basis components"), std::string::npos);
 }
 
 TEST(Buffer, MapsOfReuseWhereThereIsAny) {
@@ -215,7 +215,7 @@ TEST(Buffer, SaysWhyThereIsNone) {
     EXPECT_EQ(why(Buffer::primal), "");
     EXPECT_EQ(why(Buffer::albedo), "");
     EXPECT_EQ(why(Buffer::dx), "PT measures no gradients");
-    EXPECT_EQ(why(Buffer::reused), "PT shares no paths between pixels");
+    EXPECT_EQ(why(Buffer::reused), "PT reuses no paths");
     EXPECT_NE(why(Buffer::error_squared).find("drop an EXR"), std::string::npos);
     auto other_size = std::make_shared<Reference>();
     other_size->image = RgbImage(7, 3, Rgb(1));
@@ -258,8 +258,8 @@ TEST(Buffer, TopValuesReadWell) {
 }
 
 TEST(Buffer, LegendSaysWhatTheColoursStandFor) {
-    EXPECT_EQ(legend_text(Buffer::reused, {0, 50}), "reused: 0 .. 50 paths a pass");
-    EXPECT_EQ(legend_text(Buffer::reused, {0, 0.12f}), "reused: 0 .. 0.12 paths a pass");
+    EXPECT_EQ(legend_text(Buffer::reused, {0, 50}), "reused: 0 .. 50 paths per pass");
+    EXPECT_EQ(legend_text(Buffer::reused, {0, 0.12f}), "reused: 0 .. 0.12 paths per pass");
     EXPECT_EQ(legend_text(Buffer::survival, {0, 1}), "survival: 0 .. 100 %");
 }
 

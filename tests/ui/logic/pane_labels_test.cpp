@@ -39,8 +39,9 @@ TEST(PaneLabels, TellTwoPanesOfOneMethodApartByWhatDiffers) {
     EXPECT_EQ(pane_label(state, 0), "G-PR, tile 6, L2");
     EXPECT_EQ(pane_label(state, 1), "G-PR, tile 8, L1");
     state.panes[1].settings.render.adapt_tile = !state.panes[0].settings.render.adapt_tile;
-    EXPECT_EQ(pane_label(state, 1), state.panes[1].settings.render.adapt_tile ? "G-PR, tile 8, adapt on, L1"
-                                                                              : "G-PR, tile 8, adapt off, L1");
+    EXPECT_EQ(pane_label(state, 1), state.panes[1].settings.render.adapt_tile
+                                        ? "G-PR, tile 8, adaptive tiles on, L1"
+                                        : "G-PR, tile 8, adaptive tiles off, L1");
 }
 
 TEST(PaneLabels, BadgesAndStatusHaveThem) {

@@ -33,17 +33,17 @@ void note_two_exposures(ViewerState& s) {
 
 /// What must be so before an action, as it would change nothing otherwise.
 const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
-    {"Reconstruction",
+    {"Result",
      [](ViewerState& s) { s.panes[0].settings.buffer = s.panes[1].settings.buffer = Buffer::dx; }},
     {"Reset exposure", [](ViewerState& s) { s.display.tone.exposure = 2; }},
-    {"Next part",
+    {"Next component",
      [](ViewerState& s) {
          s.active().settings.render.basis = Basis::sh1;
          s.active().settings.buffer = Buffer::dx;
      }},
     {"Fit picture", [](ViewerState& s) { s.set_view(ImageView(2, {0.4f, 0.5f})); }},
     {"Smaller text", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
-    {"Text as the display says", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
+    {"Default text size", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
     {"Step one pass", [](ViewerState& s) { s.wishes.restart = true; }}, // it may have been done before
     {"Two panes", [](ViewerState& s) { s.set_pane_count(4); }},
     {"Reset camera", [](ViewerState& s) { s.camera.orbit({40, 10}, 100); }},
