@@ -33,9 +33,9 @@ TEST(LongReconstruction, IsGivenUpByEscape) {
     EXPECT_LE(h.viewer.next_frame_in(), 0.1); // the seconds go on
     h.type(Key::f1);
     h.type(Key::escape); // closes the help alone
-    EXPECT_FALSE(has_message(h.state(), "given up"));
+    EXPECT_FALSE(has_message(h.state(), "was cancelled"));
     h.type(Key::escape);
-    EXPECT_TRUE(has_message(h.state(), "G-PT: the reconstruction of pass 1 was given up."));
+    EXPECT_TRUE(has_message(h.state(), "G-PT: the reconstruction of pass 1 was cancelled."));
     ASSERT_TRUE(h.wait_until([&] { return !h.pane(0).reconstructing; }));
     h.frames(5);
     EXPECT_FALSE(h.pane(0).reconstructing); // nor is it begun again

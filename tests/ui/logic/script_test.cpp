@@ -37,10 +37,10 @@ TEST(Script, StepsQuotesAndComments) {
 }
 
 TEST(Script, ErrorsNameFileAndLine) {
-    EXPECT_EQ(error_of("wait scene\njump 3").rfind("steps.txt:2: no step is called jump; there are wait, key", 0),
+    EXPECT_EQ(error_of("wait scene\njump 3").rfind("steps.txt:2: unknown step jump; the steps are wait, key", 0),
               0u);
-    EXPECT_EQ(error_of("\n\nset tile"), "steps.txt:3: it is: set NAME VALUE");
-    EXPECT_EQ(error_of("print \"no end"), "steps.txt:1: a quotation has no end");
+    EXPECT_EQ(error_of("\n\nset tile"), "steps.txt:3: usage: set NAME VALUE");
+    EXPECT_EQ(error_of("print \"no end"), "steps.txt:1: missing closing quotation mark");
     EXPECT_EQ(error_of("print \"\""), "");
     EXPECT_THROW(read_script("/nowhere/steps.txt"), ScriptError);
 }

@@ -160,7 +160,7 @@ TEST_F(CompanionsTest, ReadingAReferenceIsToldAndGivenUp) {
     const auto before = state().companions.reference;
     const auto expect_given_up = [&] {
         EXPECT_FALSE(state().reference_read);
-        EXPECT_NE(state().messages.back().text.find("was given up"), std::string::npos);
+        EXPECT_NE(state().messages.back().text.find("was cancelled"), std::string::npos);
         frames(20);
         EXPECT_EQ(state().companions.reference, before);
         EXPECT_FALSE(has("reading"));

@@ -56,7 +56,7 @@ TEST(NoScene, OneThatWasGivenUpIsToldToo) {
     goes_on = true;
     h.frames(3);
     EXPECT_TRUE(h.has("no_scene.why"));
-    EXPECT_NE(h.state().scene_info.problem.text.find("given up"), std::string::npos);
+    EXPECT_NE(h.state().scene_info.problem.text.find("was cancelled"), std::string::npos);
 }
 
 /// How many pixels in the middle of a pane's place are not black.

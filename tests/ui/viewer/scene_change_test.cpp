@@ -221,7 +221,7 @@ TEST_F(SceneChange, DroppedFileOfAnotherKindGetsAMessage) {
     EXPECT_FALSE(viewer.loading());
     EXPECT_TRUE(opened.empty());
     ASSERT_EQ(state().messages.size(), 1u);
-    EXPECT_TRUE(says("/pictures/cat.png: this is no scene"));
+    EXPECT_TRUE(says("/pictures/cat.png: the file type is unknown"));
 }
 
 TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
@@ -295,7 +295,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
         wait_until([&] { return ended.load(); });
         frames(3);
         EXPECT_EQ(state().scene_info.name, "room.xml");
-        EXPECT_TRUE(says("slow.xml was given up"));
+        EXPECT_TRUE(says("slow.xml was cancelled"));
         EXPECT_FALSE(says("of_slow.json"));
         EXPECT_FALSE(has("cancel_load"));
     }
