@@ -176,7 +176,7 @@ TEST_F(Dialog, AReferenceIsNamedInFull) {
     h.state().wishes.open_reference = "./r.exr";
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
     EXPECT_EQ(h.state().companions.reference->name, (folder.path / "r.exr").string());
-    EXPECT_EQ(h.state().messages.back().text, "The reference is now r.exr"); // shown as it is called from here
+    EXPECT_EQ(h.state().messages.back().text, "Loaded the reference r.exr"); // shown as it is called from here
     EXPECT_EQ(short_path((folder.path / "a" / "r.exr").string()), "a/r.exr");
     EXPECT_EQ(short_path("/elsewhere/r.exr"), "/elsewhere/r.exr");
     EXPECT_EQ(short_path(folder.path.string() + "-2/r.exr"), folder.path.string() + "-2/r.exr");
