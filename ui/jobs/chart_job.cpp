@@ -17,8 +17,8 @@ ReconstructionSettings raw_samples() {
     return settings;
 }
 
-/// Returns the identity of the pane's picture. Null: the pane shows a preview, an old request, or the primal image
-/// because its reconstruction is not complete.
+/// Returns the identity of the pane's picture. Null: the pane shows a preview, an old request, or the primal
+/// image because its reconstruction is not complete.
 std::shared_ptr<const void> complete_picture(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
     if (!s || s->coarse() || s->generation != pane.generation)

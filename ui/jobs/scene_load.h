@@ -69,8 +69,8 @@ struct SceneLoadResult {
 /// Loads one scene at a time in the background. The destructor cancels the load and waits for the loader.
 class SceneLoad {
 public:
-    /// Starts a load, and cancels the one under way. `on_done` is called from the loading thread once take() has a
-    /// result.
+    /// Starts a load, and cancels the one under way. `on_done` is called from the loading thread once take() has
+    /// a result.
     void start(SceneOrigin origin, std::function<void()> on_done);
 
     /// Cancels the load under way. take() returns no result of it.

@@ -15,8 +15,8 @@
 
 namespace tessera {
 
-/// Fulfils the state's wishes to save files, in the background and in their order. A message reports each outcome:
-/// "Saved " with the file name, or the error.
+/// Fulfils the state's wishes to save files, in the background and in their order. A message reports each
+/// outcome: "Saved " with the file name, or the error.
 class Saver {
 public:
     /// @param write_exr  may be empty: a wish for an EXR file becomes an error message

@@ -84,7 +84,8 @@ void SceneSwitch::show(ViewerState& state, std::shared_ptr<const Scene> scene, c
     set_depths(state, is_reload ? previous.get() : nullptr);
 }
 
-/// Sets the maximum depth of all panes to the scene's. A reload keeps depths that differ from the previous load's.
+/// Sets the maximum depth of all panes to the scene's. A reload keeps depths that differ from the previous
+/// load's.
 /// @param previous  the previous load of the same scene; null: the scene is another one
 void SceneSwitch::set_depths(ViewerState& state, const Scene* previous) const {
     const auto depth_of = [&](const Scene& s) {

@@ -141,8 +141,8 @@ void SessionLink::send_panes(ViewerState& state) {
     std::vector<std::size_t> renders(state.panes.size());
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         renders[i] = rendering_pane(state, i);
-    // If a pane that rendered for others has changed or is removed, one of the others takes over its slot with the
-    // samples.
+    // If a pane that rendered for others has changed or is removed, one of the others takes over its slot with
+    // the samples.
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         PaneState& pane = state.panes[i];
         const int followed = sent_of(pane).followed;

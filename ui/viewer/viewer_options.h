@@ -25,8 +25,8 @@ struct SavedPicture {
     std::shared_ptr<const Reference> reference; ///< for errors; null: none is loaded
 };
 
-/// Writes a picture with its layers, camera and settings to an EXR file; called from a thread other than the UI's.
-/// Throws std::exception, whose what() becomes a message.
+/// Writes a picture with its layers, camera and settings to an EXR file; called from a thread other than the
+/// UI's. Throws std::exception, whose what() becomes a message.
 using PictureWriter = std::function<void(const std::filesystem::path& file, const SavedPicture& picture)>;
 
 /// Options of the command line, and the program's functions that the viewer calls.

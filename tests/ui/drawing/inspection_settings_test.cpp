@@ -142,7 +142,7 @@ TEST_F(InspectionSettings, WhatIsBrokenIsNamedWithItsPlace) {
     const std::string before = settings_json(state());
     const std::pair<const char*, const char*> cases[] = {
         {"\"inspector\": true", "this must be an object"},
-        {"\"inspector\": {\"on\": 1}", "on is of the wrong kind: number"},
+        {"\"inspector\": {\"on\": 1}", "on has the wrong type: number"},
         {"\"inspector\": {\"shows\": \"both\"}", "shows is \"both\": must be one of to_pixel, from_pixel"},
         {"\"inspector\": {\"sample\": {\"pane\": 2}}", "pane is out of range"},
         {"\"inspector\": {\"sample\": {\"pane\": 1, \"x\": -1}}", "x is out of range"},
@@ -162,7 +162,7 @@ TEST_F(InspectionSettings, WhatIsBrokenIsNamedWithItsPlace) {
         EXPECT_EQ(settings_json(state()), before) << field;
     }
     apply_settings_json(state(), "{\"panes\": [{}],\n \"inspector\": {\"sample\": {\"z\": 1}}}", "odd.json");
-    EXPECT_EQ(state().messages.back().text, "odd.json:2:32: there is no \"z\": it is ignored");
+    EXPECT_EQ(state().messages.back().text, "odd.json:2:32: the unknown field \"z\" is ignored");
 }
 
 } // namespace

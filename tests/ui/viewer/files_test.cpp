@@ -149,15 +149,15 @@ TEST_F(SettingsFile, FieldsThatNobodyKnowsAreTold) {
         "odd.json");
     EXPECT_EQ(state().panes[1].settings.render.tile, 4);
     ASSERT_EQ(state().messages.size(), 2u);
-    EXPECT_EQ(state().messages[0].text, "odd.json:3:10: there is no \"tome\": it is ignored");
-    EXPECT_EQ(state().messages[1].text, "odd.json:2:11: there is no \"tile\": it is ignored");
+    EXPECT_EQ(state().messages[0].text, "odd.json:3:10: the unknown field \"tome\" is ignored");
+    EXPECT_EQ(state().messages[1].text, "odd.json:2:11: the unknown field \"tile\" is ignored");
     EXPECT_EQ(state().messages[0].kind, Message::Kind::note);
 }
 
 TEST_F(SettingsFile, MessagesHaveLineAndColumn) {
     const std::pair<const char*, const char*> cases[] = {
         {"{\"panes\": [{}],\n \"tone\": {\n  \"exposure\": 99}}", "bad.json:3:15: exposure is out of range"},
-        {"{\"panes\": [{}, {\n\"settings\": {\"tile\": 4}}]}", "bad.json:2:22: tile is of the wrong kind: number"},
+        {"{\"panes\": [{}, {\n\"settings\": {\"tile\": 4}}]}", "bad.json:2:22: tile has the wrong type: number"},
         {"{\"panes\": [{}, {\n\"settings\": {\"tile\": \"99\"}}]}", "bad.json:2:22: "},
         {"{\"panes\": [{\n \"alpha\": 0}]}", "bad.json:2:11: alpha is out of range"},
         {"{\"panes\": [{\n \"norm\": \"l3\"}]}", "bad.json:2:10: norm is \"l3\": must be one of none, l2, l1, "

@@ -208,7 +208,7 @@ TEST(Remembered, EveryBrokenFileIsKeptAside) {
         std::ofstream(options.preferences) << text;
         ViewerHarness h({900, 600}, 1, options);
         h.load_scene();
-        EXPECT_EQ(told(h, "it is now " + options.preferences.string() + ending), 1)
+        EXPECT_EQ(told(h, "it is renamed to " + options.preferences.string() + ending), 1)
             << h.state().messages.front().text;
     }
     for (const auto& [text, ending] : broken)
@@ -227,7 +227,7 @@ TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
     h.viewer.drop({"/scenes/room.xml"});
     h.wait_until([&] { return h.state().scene_info.shown == 1; });
     h.finish_saving();
-    EXPECT_EQ(told(h, "it is now "), 1);
+    EXPECT_EQ(told(h, "it is renamed to "), 1);
     EXPECT_EQ(first_line(options.preferences.string() + ".broken"), "[1]");
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes.size(), 2u);
