@@ -62,12 +62,10 @@ constexpr Preset table[] = {
      "G-PT as first published: half-vector copy and reconnection, L1 with alpha 0.2, no albedo demodulation.",
      kettunen},
     {"bauszat2017", "Bauszat 2017",
-     "PR and G-PR in tiles of 6 pixels, with absolute Russian roulette (RR delta 0.1, q min 0.1), L1 with alpha "
-     "0.2.",
+     "PR and G-PR in tiles of 6 pixels, with absolute Russian roulette (RR delta 0.1, q min 0.1); L1, alpha 0.2.",
      bauszat},
     {"fang2024", "Fang 2024",
-     "Gradients of albedo-demodulated radiance; mixed reconstruction: L1 for the gradients, L2 for the primal, "
-     "with "
+     "Gradients of albedo-demodulated radiance, mixed reconstruction: L1 for the gradients, L2 for the primal; "
      "alpha 0.2.",
      fang},
 };
