@@ -166,8 +166,8 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
         ask(state, wake);
 }
 
-/// Chooses a tile of the active pane, at the first of these pixels: that of the slow motion in another pane, the
-/// inspector's, the pixel under the mouse, the middle.
+/// Chooses a tile of the active pane, at the first of these pixels that exists: the slow motion's in another pane,
+/// the inspector's, the pixel under the mouse, the middle.
 void SlowMotionJob::choose(ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     if (slow.sample && slow.sample->slot == state.active().slot)
