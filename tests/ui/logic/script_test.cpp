@@ -45,7 +45,7 @@ TEST(Script, ErrorsNameFileAndLine) {
     EXPECT_THROW(read_script("/nowhere/steps.txt"), ScriptError);
 }
 
-TEST(Script, KeysHaveTheNamesOfTheMenus) {
+TEST(Script, KeysAreNamedAsInTheMenus) {
     EXPECT_EQ(shortcut_named("M"), (Shortcut{Key::m, false, false, 0}));
     EXPECT_EQ(shortcut_named("Ctrl+Shift+K"), (Shortcut{Key::k, true, true, 0}));
     EXPECT_EQ(shortcut_named("F12"), (Shortcut{Key::f12, false, false, 0}));
@@ -60,7 +60,7 @@ TEST(Script, KeysHaveTheNamesOfTheMenus) {
     }
 }
 
-TEST(NamedSettings, SetPanesAndViewer) {
+TEST(NamedSettings, SetPaneAndViewerSettings) {
     ViewerState state;
     for (const PaneSettings& settings : default_panes(2))
         state.panes.push_back({settings, nullptr, 0, {100, 100}});

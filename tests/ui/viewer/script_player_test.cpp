@@ -72,7 +72,7 @@ TEST_F(Play, MeasuresFrames) {
     EXPECT_FALSE(state().camera.camera() == state().scene->camera());
 }
 
-TEST_F(Play, WhatCannotBeDoneNamesFileAndLine) {
+TEST_F(Play, ErrorsNameFileAndLine) {
     load_scene();
     EXPECT_EQ(error_of("key M\nclick nothing"),
               "steps.txt:2: unknown control nothing (--log-actions lists all controls)");
