@@ -4,7 +4,7 @@
 
 #include <glad/gl.h>
 
-// <GL/osmesa.h> would bring in <GL/gl.h>, which glad replaces.
+// Declared here because <GL/osmesa.h> includes <GL/gl.h>, which conflicts with glad.
 extern "C" {
 void* OSMesaCreateContextAttribs(const int* attributes, void* shared);
 unsigned char OSMesaMakeCurrent(void* context, void* buffer, unsigned type, int width, int height);
@@ -24,7 +24,7 @@ OsmesaContext::OsmesaContext(glm::ivec2 size) {
         osmesa_format, GL_RGBA, osmesa_profile, osmesa_core_profile, osmesa_major, 3, osmesa_minor, 3, 0};
     context_ = OSMesaCreateContextAttribs(attributes, nullptr);
     if (context_ == nullptr)
-        throw std::runtime_error("OSMesa offers no OpenGL 3.3");
+        throw std::runtime_error("OSMesa does not support OpenGL 3.3");
     resize(size);
     if (gladLoadGL(OSMesaGetProcAddress) == 0)
         throw std::runtime_error("OpenGL cannot be loaded");

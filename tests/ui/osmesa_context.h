@@ -6,7 +6,7 @@
 
 namespace tessera::test {
 
-/// An OpenGL 3.3 context in memory, current in the calling thread, with `size` pixels to draw into.
+/// An OpenGL 3.3 context with a framebuffer of `size` pixels in memory. It is current in the calling thread.
 class OsmesaContext {
 public:
     explicit OsmesaContext(glm::ivec2 size);

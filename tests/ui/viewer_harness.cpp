@@ -41,7 +41,7 @@ SceneOrigin scene_in(const std::filesystem::path& file) {
 
 ViewerHarness::ViewerHarness(glm::ivec2 size, float scale, ViewerOptions options, int threads)
     : context(size), gui(scale), scale_(scale), session(most_panes, threads), viewer(session, std::move(options)) {
-    state().layout.open_sections = ~0u; // every control is there
+    state().layout.open_sections = ~0u; // shows all controls
 }
 
 void ViewerHarness::frame(float seconds) {
@@ -62,13 +62,13 @@ bool ViewerHarness::wait_until(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) {
-            ADD_FAILURE() << "waited in vain";
+            ADD_FAILURE() << "the wait has timed out";
             return false;
         }
         const auto begin = std::chrono::steady_clock::now();
         frame();
-        glFinish(); // llvmpipe's threads fall behind, else
-        // As long as the frame took, so that those who work in the background, at a lower priority, get on.
+        glFinish(); // waits for llvmpipe's threads
+        // Sleeps as long as the frame took, so that background threads of lower priority make progress.
         std::this_thread::sleep_for(std::max<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin,
                                                                        std::chrono::milliseconds(2)));
     }
@@ -91,7 +91,7 @@ void ViewerHarness::rest(int spp) {
     state().rendering.pace.spp_limit = spp;
     load_scene();
     wait_until([&] { return viewer.settled(spp); });
-    // Errors come a little later, where there are any, and stand in the lines below the pictures.
+    // The status lines show errors, which are measured a little later.
     const auto is_measured = [&](const PaneState& p) {
         const PaneChart& chart = state().charts.of(p);
         return chart.generation == p.generation && chart.reference == state().companions.reference &&

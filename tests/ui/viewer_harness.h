@@ -12,34 +12,34 @@
 
 namespace tessera::test {
 
-/// A room with a lamp, seen by a camera.
+/// Returns a room with a sphere and an area light.
 std::shared_ptr<const Scene> viewer_scene();
 
-/// That room, said to be in a file.
+/// Returns the origin of that room with this file name. The file is not read.
 SceneOrigin scene_in(const std::filesystem::path& file);
 
-/// The viewer drawn in memory, driven by synthetic input.
+/// A viewer that draws into memory and is driven by synthetic input.
 class ViewerHarness {
 public:
-    /// @param threads  that render: 1 is the session's own
+    /// @param threads  number of render threads, as in ThreadPool
     explicit ViewerHarness(glm::ivec2 size = {1280, 720}, float scale = 1, ViewerOptions options = two_panes(),
                            int threads = 1);
 
-    /// PT and G-PR, of small size.
+    /// Returns the options of two panes, PT and G-PR, with 48x36 pixels.
     static ViewerOptions two_panes();
 
     void frame(float seconds = 1.0f / 60);
     void frames(int count);
-    /// Frames until the condition holds; a test failure after some seconds.
+    /// Draws frames until the condition holds. After two minutes the test fails.
     bool wait_until(const std::function<bool()>& condition);
-    /// Loads the scene and waits for both panes' first pictures.
+    /// Loads the scene and waits for the first complete pass of both panes.
     void load_scene();
-    /// Loads the scene and waits until both panes rest at so many samples a pixel: nothing moves any more.
+    /// Loads the scene and waits until both panes stop at `spp` samples per pixel and nothing moves.
     void rest(int spp);
-    /// Until all that is to be saved is written, and told.
+    /// Waits until all files are saved and reported.
     void finish_saving();
 
-    /// Input; each ends with frames in which it takes effect.
+    // Input. Each function ends with frames in which the input takes effect.
     void move_to(glm::vec2 position);
     void press(int button = 0);
     void release(int button = 0);
@@ -52,7 +52,7 @@ public:
     void wheel(float notches);
     void modifiers(bool ctrl, bool shift);
     void type(Key key, bool ctrl = false, bool shift = false);
-    /// Finds the action by its name in the list of commands, and does it.
+    /// Runs an action by its name in the command palette.
     void command(std::string_view name);
 
     void resize(glm::ivec2 size);
@@ -62,9 +62,9 @@ public:
     ControlRect place(const std::string& control) const;
     bool has(const std::string& control) const { return viewer.controls().rects().count(control) > 0; }
     ScreenPixels screen() const { return read_screen(context.size()); }
-    /// Mean of all channels over a control's area, [0, 255].
+    /// Returns the mean of all channels over a control's area, [0, 255].
     double brightness(const std::string& control) const;
-    void save(const std::string& file) const; ///< to look at, if TESSERA_TEST_PICTURES names a folder
+    void save(const std::string& file) const; ///< to the folder TESSERA_TEST_PICTURES, if it is set
 
     ViewerState& state() { return viewer.state(); }
     const PaneState& pane(int i) { return viewer.state().panes[i]; }

@@ -29,7 +29,7 @@ std::string escaped(std::string_view text) {
 
 namespace {
 
-constexpr int fewest_labels = 3, most_labels = 8;
+constexpr int min_labels = 3, max_labels = 8;
 
 std::string superscript(int number) {
     static constexpr std::string_view digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -39,7 +39,7 @@ std::string superscript(int number) {
     return text;
 }
 
-/// The least of 1, 2, 5, 10, 20, ... (times a power of ten) that is not below `step`.
+/// Returns the smallest of 1, 2 and 5 times a power of ten that is at least `step`.
 double round_up_to_125(double step) {
     const double power = std::pow(10, std::floor(std::log10(step)));
     for (double factor : {1.0, 2.0, 5.0})
@@ -49,15 +49,15 @@ double round_up_to_125(double step) {
 }
 
 std::vector<ChartTick> linear_ticks(double low, double high) {
-    const double step = round_up_to_125((high - low) / most_labels);
+    const double step = round_up_to_125((high - low) / max_labels);
     std::vector<ChartTick> ticks;
     for (double i = std::ceil(low / step); i * step <= high; ++i)
         ticks.push_back({i * step, chart_number(i * step)});
     return ticks;
 }
 
-/// Marks at 1 to 9 of every decade. `labelled` has the digits that are labelled; of the decades, every
-/// `stride`th.
+/// Returns ticks at 1 to 9 times each decade; if `stride` is above 1, at the decades only. Labels the digits in
+/// `labelled`, in every `stride`th decade.
 std::vector<ChartTick> log_ticks(double low, double high, std::string_view labelled, int stride) {
     std::vector<ChartTick> ticks;
     const int first = static_cast<int>(std::floor(std::log10(low)));
@@ -72,17 +72,16 @@ std::vector<ChartTick> log_ticks(double low, double high, std::string_view label
     return ticks;
 }
 
-std::ptrdiff_t labels(const std::vector<ChartTick>& ticks) {
+std::ptrdiff_t label_count(const std::vector<ChartTick>& ticks) {
     return std::count_if(ticks.begin(), ticks.end(), [](const ChartTick& tick) { return !tick.label.empty(); });
 }
 
-/// Ticks at as few digits as make the scale readable. A scale too short for any of these has steps as a linear
-/// one.
+/// Labels as few digits as needed for min_labels labels. A scale that is too short for this gets linear ticks.
 std::vector<ChartTick> log_ticks(double low, double high) {
-    const int stride = std::max(1, static_cast<int>(std::ceil(std::log10(high / low) / most_labels)));
+    const int stride = std::max(1, static_cast<int>(std::ceil(std::log10(high / low) / max_labels)));
     for (std::string_view digits : {"1", "125", "12357"}) {
         std::vector<ChartTick> ticks = log_ticks(low, high, digits, stride);
-        if (labels(ticks) >= fewest_labels)
+        if (label_count(ticks) >= min_labels)
             return ticks;
     }
     return linear_ticks(low, high);
@@ -93,7 +92,7 @@ std::vector<ChartTick> log_ticks(double low, double high) {
 std::string chart_number(double value) {
     const double size = std::abs(value);
     if (size == 0)
-        return "0"; // of either sign
+        return "0"; // also for -0
     if (size >= 0.9999e-4 && size < 0.99995e4)
         return fmt::format("{:.4g}", value);
     if (size >= 0.99995e4 && size < 0.99995e5)
@@ -107,20 +106,20 @@ std::string chart_number(double value) {
 
 ChartAxis ChartAxis::spanning(Scale scale, const std::vector<double>& values) {
     ChartAxis axis(scale, 1, 10);
-    std::vector<double> placed;
-    std::copy_if(values.begin(), values.end(), std::back_inserter(placed), [&](double v) { return axis.has(v); });
-    if (!placed.empty()) {
-        const auto [least, most] = std::minmax_element(placed.begin(), placed.end());
+    std::vector<double> valid;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(valid), [&](double v) { return axis.has(v); });
+    if (!valid.empty()) {
+        const auto [least, most] = std::minmax_element(valid.begin(), valid.end());
         const double low = *least, high = *most;
-        const bool spread = high - low > 1e-9 * std::max(std::abs(low), std::abs(high));
+        const bool has_extent = high - low > 1e-9 * std::max(std::abs(low), std::abs(high));
         if (scale == Scale::log) {
-            const double room = spread ? std::pow(high / low, 0.06) : 2;
-            axis.low_ = low / room;
-            axis.high_ = high * room;
+            const double margin = has_extent ? std::pow(high / low, 0.06) : 2;
+            axis.low_ = low / margin;
+            axis.high_ = high * margin;
         } else {
-            const double room = spread ? 0.06 * (high - low) : std::max(1.0, 0.5 * std::abs(low));
-            axis.low_ = low - room;
-            axis.high_ = high + room;
+            const double margin = has_extent ? 0.06 * (high - low) : std::max(1.0, 0.5 * std::abs(low));
+            axis.low_ = low - margin;
+            axis.high_ = high + margin;
         }
     }
     axis.ticks_ = scale == Scale::log ? log_ticks(axis.low_, axis.high_) : linear_ticks(axis.low_, axis.high_);
@@ -151,7 +150,7 @@ ChartAxes axes_of(const ChartPlot& plot) {
                 xs.push_back(p.x);
             ys.push_back(p.y);
             ys.push_back(p.y + p.error);
-            // On a log scale a bar that reaches down to nothing must not squeeze all else.
+            // On a log scale, an error bar extends the axis down to half of its value at most.
             ys.push_back(plot.y_scale == ChartAxis::Scale::log ? std::max(p.y - p.error, p.y / 2) : p.y - p.error);
         }
     }

@@ -8,32 +8,32 @@
 
 namespace tessera {
 
-/// Text as HTML and XML have it: <, >, & and quotes by their names, control characters as spaces.
+/// Escapes <, >, & and double quotes for HTML and XML, and replaces control characters by spaces.
 std::string escaped(std::string_view text);
 
-/// A place on an axis that is marked.
+/// A tick mark of an axis.
 struct ChartTick {
     double value;
-    std::string label; ///< empty: a small mark without one
+    std::string label; ///< empty: a small mark without a label
 };
 
-/// One axis of a chart: where values lie on it, and what is marked.
+/// One axis of a chart: the mapping of values to positions, and the tick marks.
 class ChartAxis {
 public:
     enum class Scale { linear, log };
 
-    /// Spans `values` with some room at both ends. Left out are values that have no place: those that are not
-    /// finite and, on a log scale, not positive. Without any left, it spans 1 to 10.
+    /// Returns an axis that spans `values` with a margin at both ends. Skips values that are not finite or, on a
+    /// log scale, not positive. Without values, the axis spans 1 to 10.
     static ChartAxis spanning(Scale scale, const std::vector<double>& values);
-    /// The places 0, 1, ... are named.
+    /// Returns an axis with the names as labels at 0, 1, ...
     static ChartAxis of_names(const std::vector<std::string>& names);
 
-    bool has(double value) const; ///< whether it has a place on the scale, within the ends or not
-    /// 0 at the low end, 1 at the high end. `value` must have a place.
+    bool has(double value) const; ///< whether the scale can show the value, inside or outside of [low(), high()]
+    /// Returns 0 at the low end and 1 at the high end. has(value) must hold.
     double position(double value) const;
     double low() const { return low_; }
     double high() const { return high_; }
-    /// Rising, within the ends. At least two are labelled, but of names.
+    /// Ticks in increasing order, within [low(), high()]. At least two have labels, except on an axis of names.
     const std::vector<ChartTick>& ticks() const { return ticks_; }
 
 private:
@@ -44,41 +44,41 @@ private:
     std::vector<ChartTick> ticks_;
 };
 
-/// "0.02", "12", "3·10⁻⁵": to at most four digits.
+/// Returns the value with at most four digits: "0.02", "12", "3·10⁻⁵".
 std::string chart_number(double value);
 
 struct ChartPoint {
     double x, y;
-    double error = 0; ///< half the height of its error bar; 0 or not finite: none
+    double error = 0; ///< half the height of the error bar; 0 or not finite: no bar
 };
 
-/// Points joined by a line, from left to right. Left out are points that have no place on the axes.
+/// Points connected by a line from left to right. Points that the axes cannot show are skipped.
 struct ChartSeries {
-    std::string label; ///< the key's; series of one label in several plots look alike
+    std::string label; ///< text in the key; series with the same label in several plots share one style
     std::vector<ChartPoint> points;
-    /// One value for every x: a line without markers at the first point's y, whatever its x.
+    /// Whether the series is a horizontal line at the first point's y, across the plot and without markers.
     bool is_level = false;
-    bool is_dense = false; ///< too many points to mark each: the last alone is
-    LineLook look{};       ///< without a method: dashed where it is level, else solid, with a marker by its label
+    bool is_dense = false; ///< whether only the last point gets a marker
+    LineLook look{};       ///< without a method, to_svg uses a dashed line if level, else a marker by the label
 };
 
-/// One frame with its axes.
+/// One plot: axes and series.
 struct ChartPlot {
     std::string x_label, y_label;
     ChartAxis::Scale x_scale = ChartAxis::Scale::linear;
     ChartAxis::Scale y_scale = ChartAxis::Scale::log;
-    std::vector<std::string> x_names; ///< if not empty: x is an index into these, and its scale does not count
+    std::vector<std::string> x_names; ///< if not empty: x is an index into these, and x_scale is ignored
     std::vector<ChartSeries> series;
 };
 
-/// Plots side by side, below a title, with one key for all. Written to a file by to_svg, and drawn on the screen
-/// by draw_plot (charts.h).
+/// Plots side by side below a title, with a common key. to_svg writes a chart; draw_plot (charts.h) draws a plot
+/// on the screen.
 struct Chart {
     std::string title;
     std::vector<ChartPlot> plots;
 };
 
-/// The two axes of a plot, which have a place for all of its points and bars that have one on their scales.
+/// The axes of a plot. They span its points and error bars.
 struct ChartAxes {
     ChartAxis x, y;
 
@@ -86,7 +86,7 @@ struct ChartAxes {
 };
 ChartAxes axes_of(const ChartPlot& plot);
 
-/// The chart as an SVG file that needs no other.
+/// Returns the chart as a self-contained SVG file.
 std::string to_svg(const Chart& chart);
 
 } // namespace tessera

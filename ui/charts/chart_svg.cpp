@@ -18,7 +18,7 @@ constexpr double frame_width = 400, frame_height = 300;
 constexpr double left_room = 78, right_room = 22, bottom_room = 66, title_height = 46;
 constexpr double key_line = 22, key_sample = 46, letter_width = 7.2;
 
-/// Okabe and Ito's: told apart by those who do not see red or green, too.
+/// Palette of Okabe and Ito, which is distinguishable with colour-blindness.
 constexpr std::string_view colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                        "#e69f00", "#56b4e9", "#000000", "#8c510a"};
 
@@ -56,10 +56,9 @@ public:
     }
 
 private:
-    /// How a line is drawn.
     struct Style {
         std::string color;
-        std::string dashes; // an attribute, or empty
+        std::string dashes; // stroke-dasharray attribute; empty: solid
         int marker = 0;
         bool is_level = false; // without markers
     };
@@ -101,7 +100,7 @@ private:
             line(f.left, y, right, y, tick.label.empty() ? "#f2f2f2" : "#d8d8d8");
             text(f.left - 8, y + 4.5, "end", tick.label);
         }
-        bool lower = false; // long names alternate between two lines
+        bool lower = false; // crowded labels alternate between two lines
         for (const ChartTick& tick : f.axes.x.ticks()) {
             const double x = f.at_x(tick.value);
             line(x, f.bottom(), x, f.bottom() + (tick.label.empty() ? 3 : 6), "#222");
@@ -154,9 +153,9 @@ private:
         if (!std::isfinite(p.error) || p.error <= 0)
             return;
         const double x = f.at_x(p.x), top = f.at_y(p.y + p.error), low = p.y - p.error;
-        const bool ends = f.axes.y.has(low) && low >= f.axes.y.low(); // else the bar is cut off at the frame
+        const bool ends = f.axes.y.has(low) && low >= f.axes.y.low(); // otherwise the frame clips the bar
         const double bottom = ends ? f.at_y(low) : f.bottom();
-        constexpr std::string_view faint = R"(stroke-opacity="0.6")"; // where bars overlap
+        constexpr std::string_view faint = R"(stroke-opacity="0.6")"; // keeps overlapping bars distinguishable
         line(x, top, x, bottom, stroke, faint);
         line(x - 4, top, x + 4, top, stroke, faint);
         if (ends)
@@ -211,7 +210,7 @@ private:
         return static_cast<std::size_t>(std::find(labels_.begin(), labels_.end(), label) - labels_.begin());
     }
 
-    /// The style of a line whose label is the index-th.
+    /// Returns the style of a series. `index` is the index of its label in labels_.
     static Style style_of(const ChartSeries& series, std::size_t index) {
         Style style{std::string(colors[index % std::size(colors)]), "", static_cast<int>(index), series.is_level};
         if (!series.look.method) {
@@ -222,7 +221,7 @@ private:
         style.color = fmt::format("#{:02x}{:02x}{:02x}", ink >> IM_COL32_R_SHIFT & 255,
                                   ink >> IM_COL32_G_SHIFT & 255, ink >> IM_COL32_B_SHIFT & 255);
         style.marker = series.look.marker;
-        for (float length : dashes_of(series.look)) // in widths of the line, which is of two pixels
+        for (float length : dashes_of(series.look)) // in units of the line width, which is 2 pixels
             style.dashes +=
                 fmt::format("{}{:g}", style.dashes.empty() ? R"( stroke-dasharray=")" : " ", 2 * length);
         style.dashes += style.dashes.empty() ? "" : "\"";
@@ -231,7 +230,7 @@ private:
 
     const Chart& chart_;
     std::vector<std::string> labels_;
-    std::vector<Style> styles_; // by label
+    std::vector<Style> styles_; // in the order of labels_
     std::string out_;
 };
 

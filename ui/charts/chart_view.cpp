@@ -17,7 +17,7 @@ namespace tessera {
 
 namespace {
 
-/// The font has no raised digits, as chart_number() would write them.
+/// Formats a number without superscripts, which the font lacks and chart_number() uses.
 std::string label(double value) {
     char text[16];
     std::snprintf(text, sizeof text, "%.4g", value + 0.0); // no -0
@@ -27,7 +27,7 @@ std::string label(double value) {
 void draw_axes(const ScreenRect& plot, const ChartAxes& axes, bool has_names) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize();
-    float right_end = plot.min.x - font; // of the last label: none may overlap
+    float right_end = plot.min.x - font; // of the last label drawn; overlapping labels are skipped
     for (const ChartTick& tick : axes.x.ticks()) {
         const float at = glm::mix(plot.min.x, plot.max.x, static_cast<float>(axes.x.position(tick.value)));
         list.AddLine({at, plot.min.y}, {at, plot.max.y},
@@ -56,14 +56,14 @@ float x_of(double x, const ScreenRect& frame, const ChartAxes& axes) {
     return glm::mix(frame.min.x, frame.max.x, static_cast<float>(axes.x.position(x)));
 }
 
-/// What has no place on the scale is drawn at its lower end.
+/// Returns the screen position of y. Values that the scale cannot show lie at its lower end.
 float y_of(double y, const ScreenRect& frame, const ChartAxes& axes) {
     const float at =
         axes.y.has(y) ? glm::mix(frame.max.y, frame.min.y, static_cast<float>(axes.y.position(y))) : frame.max.y;
     return std::min(at, frame.max.y);
 }
 
-/// Draws one standard error to each side of the point.
+/// Draws an error bar of one standard error to each side of the point.
 void draw_bar(const ChartPoint& p, const ScreenRect& frame, const ChartAxes& axes, ImU32 colour) {
     if (!std::isfinite(p.error) || p.error <= 0)
         return;
@@ -112,18 +112,19 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
 
 namespace {
 
-/// The picture's size in sizes of the font: so high that one plot is large, and several can be read.
+/// Returns the size of chart_picture() in font sizes. The height grows with the number of plots and of lines.
 glm::vec2 size_of_picture(const ViewerState& state) {
     const auto plots = static_cast<float>(viewer_chart(state).plots.size());
-    const auto lines = static_cast<float>(line_colours(state).size()); // of numbers, below the plots
+    const auto lines = static_cast<float>(line_colours(state).size()); // lines of figures below the plots
     const float histogram_and_text = 12;
     return {64, (plots > 0 ? std::max(24.0f, 14 * plots) : 0) + 1.5f * lines + histogram_and_text};
 }
 
-/// A frame of Dear ImGui beside the current one, with its fonts and style, current while this lives.
-class SideFrame {
+/// A second context of Dear ImGui with the fonts and style of the first, in a new frame. It is current during the
+/// object's lifetime.
+class OffscreenFrame {
 public:
-    explicit SideFrame(glm::vec2 size) : main_(ImGui::GetCurrentContext()) {
+    explicit OffscreenFrame(glm::vec2 size) : main_(ImGui::GetCurrentContext()) {
         const ImGuiStyle style = ImGui::GetStyle();
         const ImGuiIO& look = ImGui::GetIO();
         own_ = ImGui::CreateContext(look.Fonts);
@@ -132,18 +133,18 @@ public:
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = io.LogFilename = nullptr;
         io.FontDefault = look.FontDefault;
-        io.BackendFlags = look.BackendFlags; // it is drawn by the same
+        io.BackendFlags = look.BackendFlags; // the same backend draws it
         io.DisplaySize = {size.x, size.y};
         ImGui::NewFrame();
     }
-    ~SideFrame() {
+    ~OffscreenFrame() {
         ImGui::SetCurrentContext(main_);
         ImGui::DestroyContext(own_);
     }
-    SideFrame(const SideFrame&) = delete;
-    SideFrame& operator=(const SideFrame&) = delete;
+    OffscreenFrame(const OffscreenFrame&) = delete;
+    OffscreenFrame& operator=(const OffscreenFrame&) = delete;
 
-    /// Ends the frame, and fills the framebuffer drawn into.
+    /// Ends the frame, and draws it over the whole bound framebuffer.
     void draw() const {
         ImGui::Render();
         ImDrawData* drawn = ImGui::GetDrawData();
@@ -160,9 +161,9 @@ private:
 
 ScreenPixels chart_picture(const ViewerState& state) {
     const glm::vec2 size = glm::ceil(ImGui::GetFontSize() * size_of_picture(state));
-    const SideFrame frame(size);
-    Controls untouched; // by the mouse
-    draw_large_charts({glm::vec2(0), size}, untouched, state);
+    const OffscreenFrame frame(size);
+    Controls no_input; // of this picture only
+    draw_large_charts({glm::vec2(0), size}, no_input, state);
     Framebuffer target;
     target.resize(glm::ivec2(size));
     const DrawInto drawing(target);

@@ -19,7 +19,7 @@ namespace tessera {
 
 namespace {
 
-// Heights, in sizes of the font.
+// Heights in font sizes.
 constexpr float plot_height = 14, small_plot_height = 11, histogram_height = 7;
 
 const std::vector<ChoiceItem> kinds = choice_items(words::charts);
@@ -27,20 +27,20 @@ const std::vector<ChoiceItem> kinds = choice_items(words::charts);
 constexpr const char* help_of(ChartKind kind) {
     switch (kind) {
     case ChartKind::error:
-        return "relMSE of each pane's picture to the reference: the mean of (I - r)^2 / (r^2 + 0.001) [Bauszat "
-               "2017, 4], against what it has taken; to a reference with halves (I - r1) (I - r2), in which the "
-               "reference's own noise cancels. Without a reference, an estimate for each pane's samples, by what "
-               "two halves of them disagree on. Both axes are logarithmic.";
+        return "relMSE of each pane's picture against the reference: the mean of (I - r)^2 / (r^2 + 0.001) "
+               "[Bauszat 2017, 4]. If the reference has two halves, the numerator is (I - r1) (I - r2), in which "
+               "the reference's own noise cancels. Without a reference, the error of each pane's raw samples is "
+               "estimated from the disagreement of their two halves. Both axes are logarithmic.";
     case ChartKind::efficiency:
-        return "1 / (relMSE x seconds), 1/s, of each pane's picture. The line of a method without bias becomes "
-               "level; the higher one needs less time for the same error. Both axes are logarithmic.";
+        return "1 / (relMSE x seconds), 1/s, of each pane's picture. The line of an unbiased method becomes "
+               "horizontal. A higher line needs less time for the same error. Both axes are logarithmic.";
     case ChartKind::shifts:
-        return "The share of all shifts so far by how they ended, per cent. Both axes are logarithmic.";
+        return "Percentage of all shifts so far by their outcome. Both axes are logarithmic.";
     }
     return "";
 }
 
-/// Takes room of a height as an item, and says where it is.
+/// Adds an empty item of this height, as wide as the panel, and returns its rectangle.
 ScreenRect take_room(float height) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f);
@@ -48,18 +48,18 @@ ScreenRect take_room(float height) {
     return {{at.x, at.y}, {at.x + width, at.y + height}};
 }
 
-void coloured(ImU32 colour, const char* text) {
+void text_in_colour(ImU32 colour, const char* text) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
 }
 
-/// "   slope -1.02 ± 0.03", or nothing while it is not known.
+/// Returns "   slope -1.02 ± 0.03", or an empty text while the slope is unknown.
 std::string slope_text(const std::optional<Slope>& slope) {
     return slope ? fmt::format("   slope {:.2f} ± {:.2f}", slope->value, slope->error) : "";
 }
 
-/// "0.0123 ± 0.0004   slope -1.02 ± 0.03": the newest point of a line. An estimate has a ~.
+/// Returns "0.0123 ± 0.0004   slope -1.02 ± 0.03" for the newest point of a line. An estimate begins with ~.
 std::string figures_text(const ViewerState& state, const ChartSeries& series) {
     if (series.points.empty())
         return state.companions.reference ? "no error yet" : "no estimate yet";
@@ -71,7 +71,7 @@ std::string figures_text(const ViewerState& state, const ChartSeries& series) {
                        slope_text(slope_of_last_decade(series)));
 }
 
-/// Draws for each line of the plot the newest error or efficiency and the slope, and what all of them lack.
+/// Draws the newest error or efficiency and the slope of each line, and the caveat.
 void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot& plot,
                   const std::vector<ImU32>& colours) {
     float widest = 0, widest_figures = 0;
@@ -81,21 +81,20 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
         widest = std::max(widest, ImGui::CalcTextSize(series.label.c_str()).x);
         widest_figures = std::max(widest_figures, ImGui::CalcTextSize(figures.back().c_str()).x);
     }
-    const float font = ImGui::GetFontSize(), beside = ImGui::GetStyle().WindowPadding.x + widest + font;
+    const float font = ImGui::GetFontSize(), figures_x = ImGui::GetStyle().WindowPadding.x + widest + font;
     const bool fits = widest + font + widest_figures <= ImGui::GetContentRegionAvail().x;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        coloured(colours[i], plot.series[i].label.c_str());
+        text_in_colour(colours[i], plot.series[i].label.c_str());
         if (fits)
-            ImGui::SameLine(beside);
+            ImGui::SameLine(figures_x);
         else
             ImGui::SetCursorPosX(ImGui::GetCursorPosX() + font);
         ImGui::TextUnformatted(figures[i].c_str());
         controls.place(
             ("charts.figures" + std::to_string(i)).c_str(),
-            "The newest value with its standard error where that is known, and then the slope of the line over "
-            "its last decade, with at most its own: -1 for an error that falls as noise does, 0 for its "
-            "efficiency. "
-            "~: estimated without a reference.");
+            "The newest value with its standard error, if known; then the slope of the line over its last decade, "
+            "with an upper bound of its standard error. Without bias, the slope tends to -1 for errors and to 0 "
+            "for efficiencies. ~: estimated without a reference.");
     }
     const std::string caveat = chart_caveat(state);
     if (caveat.empty())
@@ -106,15 +105,14 @@ void draw_figures(Controls& controls, const ViewerState& state, const ChartPlot&
     controls.place(
         "charts.caveat",
         state.companions.reference
-            ? "References made here, or by tessera reference, have two halves that are independent of each "
-              "other: errors against both are free of their noise."
-            : "Without a reference: what two halves of the samples disagree on says how far raw samples are from "
-              "the truth. Reconstructions err less, and in other ways, which only a "
-              "reference shows. Edges of lamps that the camera sees are not in it. There is no estimate "
-              "until it is about known how bright the picture is.");
+            ? "References made here, or by tessera reference, have two independent halves. Errors against both "
+              "halves do not contain the reference's own noise."
+            : "Without a reference, the error of the raw samples is estimated from the disagreement of their two "
+              "halves. The error and the bias of a reconstruction need a reference. The estimate does not contain "
+              "noise at the edges of visible lamps. It begins when the picture's brightness is roughly known.");
 }
 
-/// Draws a line for each outcome, with the newest share in every pane that has a plot.
+/// Draws a row of newest percentages for each outcome, with a column for each plot.
 void draw_shares(Controls& controls, const ViewerState& state, const Chart& chart,
                  const std::vector<ImU32>& colours) {
     const float font = ImGui::GetFontSize();
@@ -127,17 +125,17 @@ void draw_shares(Controls& controls, const ViewerState& state, const Chart& char
             ImGui::SameLine();
     }
     for (std::size_t i = 0; i < colours.size(); ++i) {
-        coloured(colours[i], chart.plots.front().series[i].label.c_str());
+        text_in_colour(colours[i], chart.plots.front().series[i].label.c_str());
         for (std::size_t plot = 0; plot < chart.plots.size(); ++plot) {
             const auto& points = chart.plots[plot].series[i].points;
             ImGui::SameLine(column(plot));
             ImGui::Text("%.1f %%", points.empty() ? 0.0 : points.back().y);
         }
     }
-    controls.place("charts.shares", "The newest share of each outcome, a column for each pane.");
+    controls.place("charts.shares", "The newest percentage of each outcome, one column per pane.");
 }
 
-/// Draws the chart that is chosen, `height` of all its plots together, and what it says in numbers.
+/// Draws the chosen chart, and its figures below it. `height` is the total height of its plots.
 void draw_chart(Controls& controls, const ViewerState& state, float height) {
     const Chart chart = viewer_chart(state);
     const std::vector<ImU32> colours = line_colours(state);
@@ -167,16 +165,16 @@ float chart_height(const ViewerState& state) {
     return font * (plots > 1 ? small_plot_height * static_cast<float>(plots) : plot_height);
 }
 
-/// Draws the bins on a square root scale; the bright line is what the exposure makes white.
+/// Draws the bins on a square root scale, and a line at the luminance that the exposure maps to white.
 void draw_bins(const ScreenRect& where, const Histogram& histogram, float exposure) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto most = static_cast<float>(
         std::max<std::size_t>(*std::max_element(histogram.bins.begin(), histogram.bins.end()), 1));
     const float step = where.size().x / Histogram::bin_count;
     for (int bin = 0; bin < Histogram::bin_count; ++bin) {
-        const float share = std::sqrt(static_cast<float>(histogram.bins[bin]) / most);
+        const float fraction = std::sqrt(static_cast<float>(histogram.bins[bin]) / most);
         const float left = where.min.x + step * static_cast<float>(bin);
-        list.AddRectFilled({left, glm::mix(where.max.y, where.min.y, share)}, {left + step, where.max.y},
+        list.AddRectFilled({left, glm::mix(where.max.y, where.min.y, fraction)}, {left + step, where.max.y},
                            colours::dim_text);
     }
     const float stops = static_cast<float>(Histogram::last_stop - Histogram::first_stop);
@@ -191,8 +189,8 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
     const ScreenRect where = take_room(ImGui::GetFontSize() * histogram_height);
     controls.place(
         "charts.histogram",
-        "How many pixels of the active pane's picture have which luminance, from 2^-12 to 2^8, on a square "
-        "root scale. The bright line is what the exposure makes white.");
+        "Histogram of the luminance of the active pane's picture, from 2^-12 to 2^8, on a square root scale. "
+        "The bright line marks the luminance that the exposure maps to white.");
     ImGui::GetWindowDrawList()->AddRectFilled({where.min.x, where.min.y}, {where.max.x, where.max.y},
                                               IM_COL32(128, 128, 128, 25));
     const auto& histogram = state.charts.of(state.active()).histogram;
@@ -203,7 +201,7 @@ void draw_histogram(Controls& controls, const ViewerState& state) {
                         histogram->not_finite);
 }
 
-/// Draws the choices of a chart, and of what it is against.
+/// Draws the choices of the chart and of its x axis.
 void draw_choices(Controls& controls, ViewerState& state) {
     static const std::vector<ChoiceItem> axes = choice_items(words::chart_axes);
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
@@ -213,14 +211,14 @@ void draw_choices(Controls& controls, ViewerState& state) {
                          "Which chart is shown.");
     ImGui::SameLine();
     controls.bare_choice("charts.axis", axes[axis].label.c_str(), axes, axis, -FLT_MIN,
-                         "What it is shown against.");
+                         "The quantity of the x axis.");
     state.layout.chart_kind = static_cast<ChartKind>(kind);
     state.layout.charts_by_spp = axis == 1;
 }
 
-/// Two ways to a reference: one from a file, and one that is made here.
+/// Draws the buttons that open a reference file or render a reference.
 void draw_reference_buttons(Controls& controls, ViewerState& state) {
-    if (controls.button("charts.open_reference", "Open a reference ...", "Chooses an EXR file."))
+    if (controls.button("charts.open_reference", "Open a reference ...", "Opens an EXR file."))
         state.layout.choosing = FilePurpose::reference;
     ImGui::SameLine();
     if (controls.button("charts.make_reference", "Make one ...", "Renders a reference of what the panes show."))
@@ -229,14 +227,14 @@ void draw_reference_buttons(Controls& controls, ViewerState& state) {
 
 void draw_chart_buttons(Controls& controls, ViewerState& state) {
     if (controls.button("charts.large", state.layout.large_charts ? "Small" : "Large",
-                        state.layout.large_charts
-                            ? "Draws them here again (Esc)."
-                            : "Draws chart and histogram over the pictures instead of here."))
+                        state.layout.large_charts ? "Moves chart and histogram back into this panel (Esc)."
+                                                  : "Draws chart and histogram over the pictures."))
         state.layout.large_charts = !state.layout.large_charts;
     ImGui::SameLine();
-    if (controls.button("charts.save", "Save",
-                        "Writes the points of all panes and the histogram as CSV, the chart as SVG, and a picture "
-                        "of it as PNG, to the folder where was saved last."))
+    if (controls.button(
+            "charts.save", "Save",
+            "Writes the points of all panes and the histogram as CSV, and the chart as SVG and PNG, to "
+            "the folder of the last save."))
         state.save(SaveKind::charts);
 }
 
@@ -271,10 +269,12 @@ void draw_large_charts(const ScreenRect& where, Controls& controls, const Viewer
     ImGui::SetNextWindowSize({where.size().x, where.size().y});
     if (ImGui::Begin("Large charts", nullptr, overlay_flags)) {
         const float font = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing();
-        const auto lines = static_cast<float>(line_colours(state).size() + 2); // one above, and the caveat below
+        const auto lines =
+            static_cast<float>(line_colours(state).size() + 2); // the title above, and the caveat below
         ImGui::TextDisabled("%s", viewer_chart(state).title.c_str());
-        const float rest = (lines + 1) * line + font * histogram_height + 2 * ImGui::GetStyle().WindowPadding.y;
-        draw_chart(controls, state, std::max(ImGui::GetContentRegionAvail().y - rest, font * plot_height));
+        const float other_height =
+            (lines + 1) * line + font * histogram_height + 2 * ImGui::GetStyle().WindowPadding.y;
+        draw_chart(controls, state, std::max(ImGui::GetContentRegionAvail().y - other_height, font * plot_height));
         draw_histogram(controls, state);
     }
     ImGui::End();

@@ -25,9 +25,9 @@ void draw_dashed(std::span<const ImVec2> points, std::span<const float> dashes, 
         list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
         return;
     }
-    std::size_t dash = 0;           // even: it is drawn
-    float left = dashes[0] * width; // of this dash or gap
-    std::vector<ImVec2> stroke;     // what of it is done, around corners
+    std::size_t dash = 0;                // index of the dash (even) or gap (odd)
+    float remaining = dashes[0] * width; // length left of this dash or gap
+    std::vector<ImVec2> stroke;          // points of the dash so far; a dash continues around corners
     const auto end_stroke = [&] {
         list.AddPolyline(stroke.data(), static_cast<int>(stroke.size()), colour, 0, width);
         stroke.clear();
@@ -35,23 +35,23 @@ void draw_dashed(std::span<const ImVec2> points, std::span<const float> dashes, 
     for (std::size_t i = 1; i < points.size(); ++i) {
         const ImVec2 from = points[i - 1], to = points[i];
         const float length = std::hypot(to.x - from.x, to.y - from.y);
-        const auto at = [&](float way) {
-            return ImVec2(from.x + (to.x - from.x) * way / length, from.y + (to.y - from.y) * way / length);
+        const auto at = [&](float done) {
+            return ImVec2(from.x + (to.x - from.x) * done / length, from.y + (to.y - from.y) * done / length);
         };
-        for (float way = 0; way < length;) {
-            const float step = std::min(left, length - way);
+        for (float done = 0; done < length;) {
+            const float step = std::min(remaining, length - done);
             if (dash % 2 == 0) {
                 if (stroke.empty())
-                    stroke.push_back(at(way));
-                stroke.push_back(at(way + step));
+                    stroke.push_back(at(done));
+                stroke.push_back(at(done + step));
             }
-            way += step;
-            left -= step;
-            if (left > 0)
+            done += step;
+            remaining -= step;
+            if (remaining > 0)
                 continue;
             end_stroke();
             dash = (dash + 1) % dashes.size();
-            left = dashes[dash] * width;
+            remaining = dashes[dash] * width;
         }
     }
     end_stroke();

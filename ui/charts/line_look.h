@@ -10,23 +10,23 @@
 
 namespace tessera {
 
-/// How lines of a chart are told apart, on the screen and in files alike: the colour stands for the method, the
-/// dashes for the norm, and the marker for whatever else differs.
+/// Style of a chart's line, on the screen and in files: the colour shows the method, the dashes show the norm,
+/// and the marker any other difference.
 struct LineLook {
-    std::optional<Method> method; ///< whose colour it has; empty: it has one by its label
-    Norm norm = Norm::none;       ///< of a method with gradients; otherwise it does not count
-    int marker = 0;               ///< which of line_markers, in turn
+    std::optional<Method> method; ///< determines the colour; empty: the label does
+    Norm norm = Norm::none;       ///< determines the dashes, see dashes_of()
+    int marker = 0;               ///< index of the marker, modulo line_markers
 
     bool operator==(const LineLook&) const = default;
 };
 
 inline constexpr int line_markers = 4; ///< disc, square, triangle, diamond
 
-/// Lengths of dashes and of the gaps between them in turn, in widths of the line; empty: it is solid, as the lines
-/// of methods without gradients are, and of the norm that is usual.
+/// Returns the alternating lengths of dashes and gaps, in line widths. Empty: a solid line, for `weighted`, for
+/// raw samples of methods without gradients, and without a method.
 std::span<const float> dashes_of(const LineLook& look);
 
-/// Draws a line through the points in the current window, with its dashes.
+/// Draws a dashed line through the points in the current window, or a solid line if `dashes` is empty.
 void draw_dashed(std::span<const ImVec2> points, std::span<const float> dashes, ImU32 colour, float width);
 
 /// Draws a marker in the current window.

@@ -45,7 +45,7 @@ ChartPlot empty_plot(const ViewerState& state, std::string y_label, Scale y_scal
             {}};
 }
 
-/// The lines of a pane's errors to the reference there is, or their estimates, without those that are of another.
+/// Returns the pane's curves. Empty if they are for another reference than the current one.
 const std::vector<ErrorCurve>& curves_of(const ViewerState& state, std::size_t pane) {
     static const std::vector<ErrorCurve> none;
     const PaneChart& chart = state.charts.of(state.panes[pane]);
@@ -57,10 +57,10 @@ struct PaneLine {
     std::size_t pane;
     const ErrorCurve* curve; // null: the pane has none yet
     std::string name;
-    std::size_t age; // lines of the pane that are newer
+    std::size_t age; // number of newer lines of the pane
 };
 
-/// What the pictures of a line were made with.
+/// Returns the settings that made the pictures of a line.
 PaneSettings settings_of(const ViewerState& state, const PaneLine& line) {
     PaneSettings settings = state.panes[line.pane].settings;
     if (line.curve) {
@@ -68,7 +68,7 @@ PaneSettings settings_of(const ViewerState& state, const PaneLine& line) {
         settings.reconstruction = line.curve->reconstruction;
     }
     if (!state.companions.reference)
-        settings.reconstruction = {}; // of the samples alone
+        settings.reconstruction = {}; // estimates are for raw samples
     return settings;
 }
 
@@ -90,24 +90,24 @@ std::vector<PaneLine> error_lines(const ViewerState& state) {
     return lines;
 }
 
-/// Dashes tell the norm; markers tell panes of one method apart.
+/// Returns a style with dashes by norm. The marker distinguishes panes with the same method.
 LineLook look_of(const ViewerState& state, const PaneLine& line) {
     const PaneSettings settings = settings_of(state, line);
-    int alike = 0;
+    int marker = 0;
     for (std::size_t i = 0; i < line.pane; ++i)
-        alike += method_of(state, i) == method_of(state, line.pane);
-    return {settings.render.method, settings.reconstruction.norm, alike};
+        marker += method_of(state, i) == method_of(state, line.pane);
+    return {settings.render.method, settings.reconstruction.norm, marker};
 }
 
-/// Of the error, or of the efficiency; not a number: not known.
+/// Returns the standard error of the error, or of the efficiency. Not a number: unknown.
 double standard_error(const ErrorPoint& p, bool is_error) {
     return is_error ? p.standard_error : efficiency_of(p) * p.standard_error / p.error;
 }
 
 ChartPlot error_plot(const ViewerState& state) {
     const bool is_error = state.layout.chart_kind == ChartKind::error;
-    const std::string of_what = state.companions.reference ? "" : ", estimated";
-    ChartPlot plot = empty_plot(state, (is_error ? "relMSE" : "1 / (relMSE x seconds)") + of_what, Scale::log);
+    const std::string suffix = state.companions.reference ? "" : ", estimated";
+    ChartPlot plot = empty_plot(state, (is_error ? "relMSE" : "1 / (relMSE x seconds)") + suffix, Scale::log);
     for (const PaneLine& line : error_lines(state)) {
         ChartSeries series{line.name, {}, false, true, look_of(state, line)};
         if (line.curve)
@@ -132,15 +132,15 @@ ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
     return plot;
 }
 
-/// A colour of a shift's outcome, made darker on a light ground, where words are written in it.
+/// Returns the colour of an outcome, darker in the light theme so that text in it is readable.
 ImU32 readable(ImU32 colour, Theme theme) {
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(colour);
-    const float share = theme == Theme::light ? 0.72f : 1.0f;
-    return ImGui::ColorConvertFloat4ToU32({c.x * share, c.y * share, c.z * share, c.w});
+    const float brightness = theme == Theme::light ? 0.72f : 1.0f;
+    return ImGui::ColorConvertFloat4ToU32({c.x * brightness, c.y * brightness, c.z * brightness, c.w});
 }
 
-/// That of the method that made a line's pictures. Panes with one method are told apart by its brightness; the
-/// newest of a pane's lines has it in full, older ones are fainter.
+/// Returns the colour of the line's method. Opacity falls with each earlier pane of the same method, and with the
+/// line's age.
 ImU32 line_colour(const ViewerState& state, const PaneLine& line) {
     const Method method = settings_of(state, line).render.method;
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(state.layout.theme == Theme::light ? method_ink(method)
@@ -160,13 +160,13 @@ std::string pane_name(const ViewerState& state, std::size_t pane) {
 
 std::string chart_caveat(const ViewerState& state) {
     if (!state.companions.reference)
-        return "~ by the samples' own variance, before their reconstruction: no bias is seen.";
+        return "~: estimated error of raw samples, from their own variance; bias is not seen.";
     std::string text = caveat_of(*state.companions.reference);
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         const std::vector<ErrorCurve>& curves = curves_of(state, i);
         const std::size_t all = curves.empty() ? 0 : curves.back().points().back().not_finite;
         if (all > state.companions.reference->not_finite)
-            text += fmt::format("{}Pane {}: {} pixels are not finite, and left out.", text.empty() ? "" : " ",
+            text += fmt::format("{}Pane {}: {} pixels are not finite, and are skipped.", text.empty() ? "" : " ",
                                 i + 1, all);
     }
     return text;
@@ -236,7 +236,7 @@ ChartPlot histogram_plot(const ViewerState& state) {
 }
 
 std::optional<Slope> slope_of_last_decade(const ChartSeries& series) {
-    constexpr double least_reach = 3; // of x: what is between nearer points is a matter of single samples
+    constexpr double min_ratio = 3; // of x; the slope between nearer points depends on single samples
     std::vector<glm::dvec2> points;
     std::vector<double> errors;
     for (const ChartPoint& p : series.points)
@@ -244,7 +244,7 @@ std::optional<Slope> slope_of_last_decade(const ChartSeries& series) {
             points.emplace_back(p.x, p.y);
             errors.push_back(p.error / p.y);
         }
-    if (points.empty() || points.back().x < least_reach * points.front().x)
+    if (points.empty() || points.back().x < min_ratio * points.front().x)
         return std::nullopt;
     const Slope slope = log_log_slope(points, errors);
     return std::isfinite(slope.value) && std::isfinite(slope.error) ? std::optional(slope) : std::nullopt;

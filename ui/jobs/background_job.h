@@ -15,11 +15,11 @@
 
 namespace tessera {
 
-/// Which object something was made of, without keeping it alive. An object that takes the place of one that is
-/// gone differs from it.
+/// Identifies an object without keeping it alive. A new object differs from a destroyed one even at the same
+/// address.
 class Identity {
 public:
-    Identity() = default; ///< of no object, as of a null pointer
+    Identity() = default; ///< no object; equal to the identity of a null pointer
     template <class T>
     Identity(const std::shared_ptr<T>& object) : object_(object) {}
 
@@ -31,28 +31,28 @@ private:
     std::weak_ptr<const void> object_;
 };
 
-/// How the viewer does what takes longer than a frame: asked for a request, it works on a thread of its own, and
-/// is polled every frame for what came of it. The latest request wins: nothing more is heard of an older one. The
-/// destructor tells all work to stop, and waits for it.
+/// Runs work that takes longer than a frame on a thread of its own. take() polls for the outcome. A new request
+/// cancels the one under way, whose outcome is dropped. The destructor requests all work to stop, and waits for
+/// it. To be used from one thread.
+/// @tparam Request  description of the work; ask() needs operator==
 template <class Request, class Result>
 class BackgroundJob {
 public:
-    /// What came of a request.
     struct Outcome {
         Request request;
-        std::optional<Result> result;
-        std::string error; ///< if there is no result
+        std::optional<Result> result; ///< empty: the work has thrown
+        std::string error;            ///< what() of the exception
     };
     using Work = std::function<Result(std::stop_token)>;
 
-    /// Starts the work, unless this is what was asked for last, be it under way, done or failed.
+    /// Starts the work, unless the request equals the last one, which may be under way, done or failed.
     void ask(Request request, Work work, std::function<void()> on_done) {
         if (!(asked_ == request))
             start(std::move(request), std::move(work), std::move(on_done));
     }
 
-    /// Starts the work in any case. `on_done` is called from the job's thread once take() has the outcome; it may
-    /// be empty.
+    /// Starts the work, even for an equal request. `on_done` is called from the job's thread once take() has the
+    /// outcome; it may be empty.
     void start(Request request, Work work, std::function<void()> on_done) {
         cancel();
         asked_ = std::move(request);
@@ -70,34 +70,34 @@ public:
         });
     }
 
-    /// Tells the work under way to stop. Its outcome is still awaited.
+    /// Requests the work under way to stop. take() still returns its outcome.
     void stop() {
         if (job_)
             job_->thread.request_stop();
     }
 
-    /// Gives up the work under way, and forgets what was asked for.
+    /// Requests the work under way to stop, and drops its outcome and the request.
     void cancel() {
         stop();
         asked_.reset();
-        forget_ended();
+        drop_ended();
         if (job_)
-            given_up_.push_back(std::move(job_));
+            cancelled_.push_back(std::move(job_));
     }
 
     bool running() const { return job_ != nullptr; }
     bool stopping() const { return job_ && job_->thread.get_stop_token().stop_requested(); }
 
-    /// What was asked for last, also once it is done; empty: nothing since the last cancel().
+    /// Returns the last request, which may be done; empty: none since the last cancel().
     const std::optional<Request>& asked() const { return asked_; }
 
-    /// The outcome, once; never waits.
+    /// Returns the outcome once, and empty before and after. Never waits.
     std::optional<Outcome> take() {
-        forget_ended();
+        drop_ended();
         return job_ && job_->finished ? wait() : std::nullopt;
     }
 
-    /// The outcome, once it is there; nothing where no job is under way.
+    /// Waits for the outcome and returns it. Returns empty if no work is under way.
     std::optional<Outcome> wait() {
         if (!job_)
             return std::nullopt;
@@ -109,18 +109,18 @@ public:
 
 private:
     struct Job {
-        std::optional<Result> result; // written before `finished`, as the next
+        std::optional<Result> result; // `result` and `error` are written before `finished`
         std::string error;
         std::atomic<bool> finished{false};
-        std::jthread thread; // last: ends first
+        std::jthread thread; // last, so that it is joined before the other members are destroyed
     };
-    void forget_ended() {
-        std::erase_if(given_up_, [](const auto& job) { return job->finished.load(); });
+    void drop_ended() {
+        std::erase_if(cancelled_, [](const auto& job) { return job->finished.load(); });
     }
 
     std::optional<Request> asked_;
     std::unique_ptr<Job> job_;
-    std::vector<std::unique_ptr<Job>> given_up_; // until they have ended by themselves
+    std::vector<std::unique_ptr<Job>> cancelled_; // until they have ended
 };
 
 } // namespace tessera

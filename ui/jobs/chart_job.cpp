@@ -10,15 +10,16 @@ namespace tessera {
 
 namespace {
 
-/// Returns the settings under which the error of a pane is estimated without a reference: raw samples.
-ReconstructionSettings samples_alone() {
+/// Returns the settings of raw samples, for which the error is estimated if there is no reference.
+ReconstructionSettings raw_samples() {
     ReconstructionSettings settings;
     settings.norm = Norm::none;
     return settings;
 }
 
-/// The picture on show at the end, if it is one: not the primal that stands in for a reconstruction under way.
-std::shared_ptr<const void> final_source(const PaneState& pane) {
+/// Returns the identity of the pane's picture. Null: the pane shows a preview, an old request, or the primal
+/// image because its reconstruction is not complete.
+std::shared_ptr<const void> complete_picture(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
     if (!s || s->coarse() || s->generation != pane.generation)
         return nullptr;
@@ -26,12 +27,12 @@ std::shared_ptr<const void> final_source(const PaneState& pane) {
     return source == s->reconstruction ? source : nullptr;
 }
 
-/// Whether the newest estimate has nearly as many samples: another one would tell nothing new, and takes time from
-/// the render.
-bool is_close(const PaneChart& chart, const Snapshot* s) {
-    constexpr double least_step = 1.04;
+/// Whether the newest estimate has nearly as many samples. Another estimate would take time from the render for
+/// little information.
+bool has_close_estimate(const PaneChart& chart, const Snapshot* s) {
+    constexpr double min_ratio = 1.04; // of samples, as in PassHistory
     return s && chart.generation == s->generation && !chart.reference && !chart.curves.empty() &&
-           s->spp < least_step * chart.curves.back().points().back().spp;
+           s->spp < min_ratio * chart.curves.back().points().back().spp;
 }
 
 } // namespace
@@ -45,15 +46,15 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
         Job& job = jobs_[pane.slot];
         PaneChart& chart = state.charts.of(pane);
         add_shifts(pane, chart);
-        // It is another picture's, or will be: passes go on while nobody looks.
+        // Drops a histogram of another request, and one that nobody looks at, because it would become outdated.
         if (chart.histogram && !(wants_histograms && chart.histogram_generation == pane.generation)) {
             chart.histogram = nullptr;
             if (!job.running())
-                job.cancel(); // asked again, it is to be measured again
+                job.cancel(); // so that an equal request measures the histogram again
         }
-        const bool is_told =
-            !wants_histograms && !state.companions.reference && is_close(chart, pane.snapshot.get());
-        if (!job.running() && !is_told)
+        const bool is_up_to_date =
+            !wants_histograms && !state.companions.reference && has_close_estimate(chart, pane.snapshot.get());
+        if (!job.running() && !is_up_to_date)
             ask(job, pane, state.companions.reference, wants_histograms, wake);
         state.charts.histograms_due |= wants_histograms && job.running() && !chart.histogram;
     }
@@ -61,11 +62,11 @@ void ChartJob::update(ViewerState& state, const std::function<void()>& wake) {
 
 void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const Reference>& reference,
                    bool wants_histogram, const std::function<void()>& wake) {
-    const std::shared_ptr<const void> source = final_source(pane);
+    const std::shared_ptr<const void> source = complete_picture(pane);
     if (!source)
         return;
     const Snapshot& s = *pane.snapshot;
-    Request request{source, reference, wants_histogram, s.generation, s.settings.method, samples_alone()};
+    Request request{source, reference, wants_histogram, s.generation, s.settings.method, raw_samples()};
     if (reference)
         request.reconstruction = applied(s.reconstructed_with, has_gradients(s.settings.method));
     job.ask(
@@ -106,23 +107,23 @@ ChartJob::Measured ChartJob::measure(const Snapshot& s, const Request& request) 
         return measured;
     }
     const auto error = error_to(*request.reference, image);
-    const bool reconstructed = request.source == s.reconstruction;
+    const bool is_reconstructed = request.source == s.reconstruction;
     if (error)
-        measured.point = ErrorPoint{reconstructed ? s.reconstruction_spp : s.spp,
-                                    reconstructed ? s.reconstruction_seconds : s.seconds, error->relative_mse,
+        measured.point = ErrorPoint{is_reconstructed ? s.reconstruction_spp : s.spp,
+                                    is_reconstructed ? s.reconstruction_seconds : s.seconds, error->relative_mse,
                                     error->standard_error, error->not_finite};
     return measured;
 }
 
-/// Adds the point to the line of pictures made in the same way, which becomes the last line.
+/// Adds the point to the curve of its method and reconstruction, and moves that curve to the end.
 void ChartJob::add_point(std::vector<ErrorCurve>& curves, const Request& request, const ErrorPoint& point) {
-    const auto same = std::find_if(curves.begin(), curves.end(), [&](const ErrorCurve& c) {
+    const auto curve = std::find_if(curves.begin(), curves.end(), [&](const ErrorCurve& c) {
         return c.method == request.method && c.reconstruction == request.reconstruction;
     });
-    if (same != curves.end()) {
-        std::rotate(same, same + 1, curves.end());
+    if (curve != curves.end()) {
+        std::rotate(curve, curve + 1, curves.end());
     } else {
-        // A slider of alpha passes by many that nobody is after.
+        // A curve of one point is replaced if only alpha differs, because dragging its slider makes many of them.
         if (!curves.empty() && curves.back().points().size() == 1 &&
             curves.back().reconstruction.norm == request.reconstruction.norm)
             curves.pop_back();
@@ -135,7 +136,7 @@ void ChartJob::take(ViewerState& state, std::size_t slot) {
     Job& job = jobs_[slot];
     const auto outcome = job.take();
     const PaneState* pane = state.pane_in(static_cast<int>(slot));
-    if (!pane) { // it was taken away
+    if (!pane) { // the pane has been closed
         state.charts[slot] = {};
         return job.cancel();
     }
@@ -143,10 +144,11 @@ void ChartJob::take(ViewerState& state, std::size_t slot) {
         return;
     state.wishes.redraw = true;
     if (!outcome->result)
-        return state.add_message(Message::Kind::error, "What charts show was not measured: " + outcome->error);
+        return state.add_message(Message::Kind::error,
+                                 "The data of the charts could not be measured: " + outcome->error);
     const Request& request = outcome->request;
     if (pane->generation != request.generation)
-        return; // the pane shows something else by now
+        return; // the pane shows another request
     PaneChart& chart = state.charts.of(*pane);
     if (chart.generation != request.generation || chart.reference != request.reference)
         chart.curves.clear();

@@ -20,7 +20,7 @@ namespace tessera {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds between_news(100);
+constexpr std::chrono::milliseconds wake_interval(100); // shortest time between two progress reports
 
 std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadWatch& watch) {
     const ExrFile exr = read_exr(file, watch, {"", half_names[0], half_names[1]});
@@ -31,14 +31,14 @@ std::shared_ptr<const Reference> load_reference(const std::filesystem::path& fil
     return make_reference(file.string(), require_layer(exr, "", file), std::move(halves), scene_of(exr));
 }
 
-/// The file by its full name: saved settings have it, and may be read from another folder.
-std::string in_full(const std::string& file) {
-    std::error_code gone; // the current folder
-    const std::filesystem::path path = std::filesystem::absolute(file, gone);
-    return file.empty() || gone ? file : path.lexically_normal().string();
+/// Returns the absolute file name, because saved settings contain it and may be read from another folder.
+std::string absolute_name(const std::string& file) {
+    std::error_code failed; // there is no current folder
+    const std::filesystem::path path = std::filesystem::absolute(file, failed);
+    return file.empty() || failed ? file : path.lexically_normal().string();
 }
 
-constexpr int coarse_divisor = 4; // the first look has a sixteenth of the pixels
+constexpr int coarse_divisor = 4; // a preview has 1/16 of the pixels
 
 bool wants_first_hits(const ViewerState& state) {
     return std::any_of(state.panes.begin(), state.panes.end(), [](const PaneState& pane) {
@@ -65,10 +65,10 @@ void CompanionJobs::read_reference(std::string file, const std::function<void()>
         reading,
         [reading, wake](std::stop_token stop) {
             work_in_background();
-            return load_reference(reading.file, [&, told = Clock::now()](float now) mutable {
-                *reading.share = now;
-                if (wake && Clock::now() - told > between_news) {
-                    told = Clock::now();
+            return load_reference(reading.file, [&, last_wake = Clock::now()](float fraction) mutable {
+                *reading.fraction = fraction;
+                if (wake && Clock::now() - last_wake > wake_interval) {
+                    last_wake = Clock::now();
                     wake();
                 }
                 return !stop.stop_requested();
@@ -79,14 +79,15 @@ void CompanionJobs::read_reference(std::string file, const std::function<void()>
 
 void CompanionJobs::update_reference(ViewerState& state, const std::function<void()>& wake) {
     if (std::exchange(state.wishes.cancel_reference, false) && reference_.running()) {
-        state.add_message(Message::Kind::note, "Reading " + reference_.asked()->file + " was given up.");
+        state.add_message(Message::Kind::note, "Reading " + reference_.asked()->file + " was cancelled.");
         reference_.cancel();
     }
-    // Before the next one starts: that can be given up for a frame at least.
+    // A new reading starts after take(), so that it can be cancelled for at least one frame.
     const auto outcome = reference_.take();
-    if (std::string file = in_full(std::exchange(state.wishes.open_reference, {})); !file.empty())
+    if (std::string file = absolute_name(std::exchange(state.wishes.open_reference, {})); !file.empty())
         read_reference(std::move(file), wake);
-    state.reference_read = reference_.running() ? std::optional(reference_.asked()->share->load()) : std::nullopt;
+    state.reference_read =
+        reference_.running() ? std::optional(reference_.asked()->fraction->load()) : std::nullopt;
     if (!outcome)
         return;
     if (!outcome->result) {
@@ -94,19 +95,19 @@ void CompanionJobs::update_reference(ViewerState& state, const std::function<voi
         return;
     }
     state.companions.reference = *outcome->result;
-    state.add_message(Message::Kind::note, "The reference is now " + short_path(state.companions.reference->name));
+    state.add_message(Message::Kind::note, "Loaded the reference " + short_path(state.companions.reference->name));
 }
 
-/// Checks once for each reference and scene, as either may come first; the camera is the one that it is seen with
-/// then.
+/// Compares the reference's checksums with the scene and the current camera. Does so once per pair of reference
+/// and scene, when both are loaded.
 void CompanionJobs::check_reference(ViewerState& state, const std::function<void()>& wake) {
     const auto& reference = state.companions.reference;
     const Check now{reference, state.scene};
     const auto outcome = check_.take();
     if (outcome && outcome->request == now && outcome->result && !outcome->result->empty())
         state.add_message(Message::Kind::error,
-                          fmt::format("The reference shows something else than the panes, in its {}: errors to it "
-                                      "mean little. It is {}",
+                          fmt::format("The reference and the panes differ in their {}, so errors against it mean "
+                                      "little. The reference is {}",
                                       *outcome->result, short_path(reference->name)),
                           Message::Origin::scene);
     if (!reference || !reference->scene || !state.scene)
@@ -120,13 +121,13 @@ void CompanionJobs::check_reference(ViewerState& state, const std::function<void
         wake);
 }
 
-/// What the panes show.
+/// Returns the view of the panes at full size.
 CompanionJobs::View CompanionJobs::view_of(const ViewerState& state) {
     return {state.scene, state.camera.camera(), state.request_size(), wants_footprints(state)};
 }
 
-/// Whether the view is what the panes show, at whatever fraction of the size it was traced.
-bool CompanionJobs::is_of(const std::optional<View>& view, const ViewerState& state) {
+/// Whether the view equals that of the panes, apart from its divisor.
+bool CompanionJobs::is_current(const std::optional<View>& view, const ViewerState& state) {
     if (!view)
         return false;
     View shown = view_of(state);
@@ -139,28 +140,29 @@ void CompanionJobs::take_first_hits(ViewerState& state) {
     const Identity scene(state.scene);
     if (auto outcome = first_hits_.take()) {
         if (!outcome->result)
-            state.add_message(Message::Kind::error, "What is seen first: " + outcome->error);
+            state.add_message(Message::Kind::error, "Tracing the first hits has failed: " + outcome->error);
         else if (outcome->request.scene == scene) {
             companions.first_hits = *outcome->result;
-            hit_ = outcome->request;
+            first_hits_view_ = outcome->request;
             state.wishes.redraw = true;
         }
     }
-    if (!hit_ || hit_->scene != scene) // of a camera moved on they may stay for the moment
+    // First hits of an older camera stay until newer ones replace them.
+    if (!first_hits_view_ || first_hits_view_->scene != scene)
         companions.first_hits = nullptr;
-    companions.first_hits_are_earlier = companions.first_hits && !is_of(hit_, state);
+    companions.first_hits_are_earlier = companions.first_hits && !is_current(first_hits_view_, state);
 }
 
-/// A look at a fraction of the size first, which is not given up when the camera moves on: a picture somewhat late
-/// is better than none. What failed is not tried again before the view is another.
+/// Traces first hits: a preview first, then all pixels. A preview is not cancelled when the camera moves, because
+/// a late picture is better than none. A view that has failed is not retried.
 void CompanionJobs::update_first_hits(ViewerState& state, const std::function<void()>& wake) {
     take_first_hits(state);
-    const bool is_asked = is_of(first_hits_.asked(), state);
-    const bool is_under_way = first_hits_.running() && (is_asked || first_hits_.asked()->divisor > 1);
-    if (!state.scene || is_under_way || !wants_first_hits(state))
+    const bool is_requested = is_current(first_hits_.asked(), state);
+    const bool must_wait = first_hits_.running() && (is_requested || first_hits_.asked()->divisor > 1);
+    if (!state.scene || must_wait || !wants_first_hits(state))
         return;
     View view = view_of(state);
-    view.divisor = is_asked ? 1 : coarse_divisor;
+    view.divisor = is_requested ? 1 : coarse_divisor;
     first_hits_.ask(
         view,
         [scene = state.scene, view](std::stop_token stop) {

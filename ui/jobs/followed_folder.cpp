@@ -15,9 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The folder may be on a server that many workers ask: looks take a twentieth of the time at the most.
-constexpr auto least_pause = std::chrono::milliseconds(500);
-constexpr int pauses_a_look = 20;
+/// Pauses limit reads to a twentieth of the time, because the folder may be on a server that many workers use.
+constexpr auto min_pause = std::chrono::milliseconds(500);
+constexpr int pause_factor = 20; // of the time that the last read took
 
 } // namespace
 
@@ -28,28 +28,28 @@ std::size_t FollowedFolder::count(FollowedJob::State state) const {
 
 void FolderFollower::follow(const std::filesystem::path& folder, FolderReader reader, std::function<void()> wake) {
     stop();
-    now_ = std::make_unique<Following>();
-    now_->view = {folder};
-    now_->thread = std::jthread(
-        [following = now_.get(), reader = std::move(reader), wake = std::move(wake)](const std::stop_token& stop) {
-            run(*following, stop, reader, wake);
-            following->has_ended = true;
-        });
+    current_ = std::make_unique<Following>();
+    current_->view = {folder};
+    current_->thread = std::jthread([following = current_.get(), reader = std::move(reader),
+                                     wake = std::move(wake)](const std::stop_token& stop) {
+        run(*following, stop, reader, wake);
+        following->has_ended = true;
+    });
 }
 
 void FolderFollower::stop() {
-    std::erase_if(given_up_, [](const auto& following) { return following->has_ended.load(); });
-    if (!now_)
+    std::erase_if(stopped_, [](const auto& following) { return following->has_ended.load(); });
+    if (!current_)
         return;
-    now_->thread.request_stop();
-    given_up_.push_back(std::move(now_));
+    current_->thread.request_stop();
+    stopped_.push_back(std::move(current_));
 }
 
 FolderFollower::View FolderFollower::view() const {
-    if (!now_)
+    if (!current_)
         return {};
-    const std::scoped_lock lock(now_->mutex);
-    return now_->view;
+    const std::scoped_lock lock(current_->mutex);
+    return current_->view;
 }
 
 void FolderFollower::run(Following& following, const std::stop_token& stop, const FolderReader& reader,
@@ -67,9 +67,9 @@ void FolderFollower::run(Following& following, const std::stop_token& stop, cons
         } catch (const std::exception& e) {
             error = message_of(e);
         }
-        if (stop.stop_requested()) // meanwhile: nobody asks for it any more
+        if (stop.stop_requested())
             return;
-        pause = std::max<Clock::duration>(least_pause, pauses_a_look * (Clock::now() - begin));
+        pause = std::max<Clock::duration>(min_pause, pause_factor * (Clock::now() - begin));
         {
             const std::scoped_lock lock(following.mutex);
             if (!seen && error == following.view.error)

@@ -25,8 +25,8 @@ std::string outside_text(glm::ivec2 pixel, glm::ivec2 size) {
                        size.x, size.y);
 }
 
-/// LearnedReuse of the pass. To learn that of a late pass again takes a while.
-LearnedReuse learned_by(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
+/// Returns the LearnedReuse of the pass: the stored one, or one learned again, which takes long for a late pass.
+LearnedReuse learned_reuse_of(const PassOrigin& o, int pass, glm::ivec2 pixel, std::stop_token stop) {
     return o.learned ? *o.learned : replay_learning(*o.scene, o.camera, o.size, o.settings, pass, pixel, stop);
 }
 
@@ -38,12 +38,12 @@ void InspectionJob::take(ViewerState& state) {
         return;
     const Request& asked = outcome->request;
     Inspector& inspector = state.inspector;
-    if (inspector.sample != asked.sample) // another was chosen since
+    if (inspector.sample != asked.sample) // another sample has been chosen
         return job_.cancel();
     const Found found = outcome->result.value_or(Found{});
     const bool is_same = found.inspection && inspector.inspection && inspector.slot == asked.sample.slot &&
                          inspector.inspection->pixel == found.inspection->pixel;
-    state.space.fits = state.space.fits || !is_same; // but not at every pass that is followed
+    state.space.fits = state.space.fits || !is_same; // not after each pass of the same pixel
     inspector.slot = asked.sample.slot;
     inspector.generation = asked.generation;
     inspector.scene_radius = found.scene_radius;
@@ -53,9 +53,9 @@ void InspectionJob::take(ViewerState& state) {
         state.add_message(Message::Kind::error, outcome->error);
 }
 
-/// The pixel of a pane that is gone is looked at in the active one. A sample of a request of its own is forgotten
-/// with the inspector: it would keep its scene, which may have been replaced.
-void InspectionJob::drop_what_is_gone(ViewerState& state) {
+/// Moves a sample of a closed pane to the active pane. Drops a sample that has its own PassOrigin when the
+/// inspector closes, because it would keep a scene alive that may have been replaced.
+void InspectionJob::drop_stale_sample(ViewerState& state) {
     Inspector& inspector = state.inspector;
     if (!inspector.sample)
         return;
@@ -69,13 +69,13 @@ void InspectionJob::drop_what_is_gone(ViewerState& state) {
     }
 }
 
-/// Whether this sample of this request was asked for last, of whatever pass.
+/// Whether the last request was for this sample of this render, in any pass.
 bool InspectionJob::has_asked(const PassOrigin& origin, const SampleChoice& sample) const {
     return job_.asked() && job_.asked()->generation == origin.generation && job_.asked()->sample == sample;
 }
 
-/// What the sample is taken from again. Null: its pane shows nothing yet that could be looked at, as it must
-/// unless a pass is given.
+/// Returns the render from which the sample is traced again. Null: the newest pass is wanted, and the pane shows
+/// no pass of its current request.
 std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& state,
                                                            const SampleChoice& sample) const {
     if (sample.origin)
@@ -92,7 +92,7 @@ std::shared_ptr<const PassOrigin> InspectionJob::origin_of(const ViewerState& st
         PassOrigin{state.scene, s->camera, size, s->settings, s->learned, s->generation});
 }
 
-/// The pass to look at: the newest, where none is given, which then stays unless the inspector follows.
+/// Returns the given pass, or the newest. The newest is updated after each pass only if the inspector follows.
 int InspectionJob::pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const {
     if (sample.pass)
         return *sample.pass;
@@ -103,19 +103,20 @@ int InspectionJob::pass_of(const ViewerState& state, const PassOrigin& origin, c
 
 void InspectionJob::update(ViewerState& state, const std::function<void()>& wake) {
     take(state);
-    drop_what_is_gone(state);
+    drop_stale_sample(state);
     Inspector& inspector = state.inspector;
     if (!inspector.active || !inspector.sample || !state.scene)
         return;
     const SampleChoice sample = *inspector.sample;
     const std::shared_ptr<const PassOrigin> origin = origin_of(state, sample);
-    // What is under way is given up for another sample only: else it might never come to an end.
+    // Only another sample cancels the inspection under way. A newer pass of the same sample does not, because the
+    // inspection might never be complete.
     if (!origin || (job_.running() && has_asked(*origin, sample)))
         return;
     if (sample.pass && !is_within(sample.pixel, origin->size)) {
         job_.cancel();
         inspector.sample.reset();
-        inspector.inspection.reset(); // where the picture was larger before
+        inspector.inspection.reset();
         return state.add_message(Message::Kind::error, outside_text(sample.pixel, origin->size));
     }
     ask(origin, {origin->generation, sample, pass_of(state, *origin, sample)}, wake);
@@ -129,7 +130,7 @@ void InspectionJob::ask(const std::shared_ptr<const PassOrigin>& origin, const R
         [origin, pixel, pass = request.pass](std::stop_token stop) {
             work_in_background();
             const PassOrigin& o = *origin;
-            const LearnedReuse learned = learned_by(o, pass, pixel, stop);
+            const LearnedReuse learned = learned_reuse_of(o, pass, pixel, stop);
             if (stop.stop_requested())
                 return Found{};
             return Found{std::make_shared<const Inspection>(
@@ -150,7 +151,7 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
         }
     }
     if (!slow.active) {
-        if (slow.view_before) // the picture goes back to where it was
+        if (slow.view_before) // restores the view of the pictures
             state.display.view = *std::exchange(slow.view_before, std::nullopt);
         job_.cancel();
         slow.tile = nullptr;
@@ -165,8 +166,8 @@ void SlowMotionJob::update(ViewerState& state, float seconds, const std::functio
         ask(state, wake);
 }
 
-/// Chooses a tile of the active pane: where it was in another, else the inspector's, else under the mouse, else in
-/// the middle.
+/// Chooses a tile of the active pane, at the first of these pixels that exists: the slow motion's in another pane,
+/// the inspector's, the pixel under the mouse, the middle.
 void SlowMotionJob::choose(ViewerState& state) {
     SlowMotion& slow = state.slow_motion;
     if (slow.sample && slow.sample->slot == state.active().slot)
@@ -185,7 +186,7 @@ void SlowMotionJob::choose(ViewerState& state) {
 
 void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
     SlowMotion& slow = state.slow_motion;
-    const PaneState& pane = state.active(); // see choose
+    const PaneState& pane = state.active(); // as in choose()
     const auto snapshot = pane.snapshot;
     if (!snapshot || snapshot->generation != pane.generation || snapshot->coarse() || snapshot->spp < 1)
         return;
@@ -202,15 +203,15 @@ void SlowMotionJob::ask(ViewerState& state, const std::function<void()>& wake) {
 
 namespace {
 
-constexpr int points_across = 48; // more of them would take a software driver most of its time
-constexpr std::size_t most_lamps = 64;
+constexpr int points_across = 48; // more points are slow to draw without a GPU
+constexpr std::size_t max_lights = 64;
 
-/// The middles of the surfaces that give light, and the points.
-std::vector<glm::vec3> lamps_of(const SceneDescription& scene) {
+/// Returns the centres of area lights and the positions of point lights, at most max_lights.
+std::vector<glm::vec3> light_positions(const SceneDescription& scene) {
     std::vector<glm::vec3> lamps;
     for (const Shape& shape : scene.shapes) {
         const std::vector<glm::vec3>& p = shape.mesh.positions;
-        if (shape.area_light < 0 || p.empty() || lamps.size() == most_lamps)
+        if (shape.area_light < 0 || p.empty() || lamps.size() == max_lights)
             continue;
         glm::vec3 min = p[0], max = p[0];
         for (glm::vec3 q : p) {
@@ -220,7 +221,7 @@ std::vector<glm::vec3> lamps_of(const SceneDescription& scene) {
         lamps.push_back((min + max) * 0.5f);
     }
     for (const PointLight& light : scene.point_lights)
-        if (lamps.size() < most_lamps)
+        if (lamps.size() < max_lights)
             lamps.push_back(light.position);
     return lamps;
 }
@@ -233,7 +234,7 @@ std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, co
     auto around = std::make_shared<Surroundings>();
     around->camera = view.camera;
     around->size = view.size;
-    around->lamps = lamps_of(scene.description());
+    around->lamps = light_positions(scene.description());
     const FirstHits hits = trace_first_hits(scene, view.camera, view.size, false, stop);
     const Projection projection(view.camera, view.size);
     for (int y = 0; y < hits.depth.height(); ++y)
@@ -249,7 +250,8 @@ std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, co
 
 void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wake) {
     if (const auto outcome = job_.take(); outcome && !outcome->result) {
-        state.add_message(Message::Kind::error, "What lies around the paths: " + outcome->error);
+        state.add_message(Message::Kind::error,
+                          "Tracing the surroundings of the paths has failed: " + outcome->error);
     } else if (outcome) {
         const bool first = state.space.surroundings == nullptr;
         state.space.surroundings = *outcome->result;
@@ -258,7 +260,7 @@ void SurroundingsJob::update(ViewerState& state, const std::function<void()>& wa
     }
     if (!state.scene || job_.running() || !(state.inspector.active || state.slow_motion.active))
         return;
-    // A sample of an earlier request is seen among what was there then.
+    // A sample that has its own PassOrigin is shown in the scene and with the camera of that render.
     const auto& sample = state.inspector.sample;
     const PassOrigin* origin =
         state.inspector.active && !state.slow_motion.active && sample ? sample->origin.get() : nullptr;

@@ -15,28 +15,28 @@
 
 namespace tessera {
 
-/// Gathers what charts show: measures the panes' pictures in the background, errors against the reference or,
-/// until there is one, those of the samples by their own variance, and histograms while charts are on show; and
-/// notes how shifts end.
+/// Collects the data of the charts. Measures in the background the errors of the panes' pictures against the
+/// reference; without one, estimates the errors of the raw samples (recon/metrics/sample_error.h). Measures
+/// histograms while charts are on show, and records the outcomes of shifts.
 class ChartJob {
 public:
-    /// To be called every frame. `wake` is called from another thread when there is something new.
+    /// To be called every frame. `wake` is called from another thread when a measurement is complete.
     void update(ViewerState& state, const std::function<void()>& wake);
 
 private:
     /// A picture to measure.
     struct Request {
         std::shared_ptr<const void> source;         // picture_source()
-        std::shared_ptr<const Reference> reference; // null: the samples' error is estimated
+        std::shared_ptr<const Reference> reference; // null: the error of raw samples is estimated
         bool wants_histogram = false;
         std::uint64_t generation = 0; // of the pane's request
         Method method = Method::gpr;
-        ReconstructionSettings reconstruction; // as applied(); of samples none
+        ReconstructionSettings reconstruction; // as applied(); Norm::none for an estimate
         bool operator==(const Request&) const = default;
     };
     struct Measured {
         std::optional<ErrorPoint> point;
-        std::shared_ptr<const Histogram> histogram; // null where none was wanted
+        std::shared_ptr<const Histogram> histogram; // null: not requested
     };
     using Job = BackgroundJob<Request, Measured>;
     static void add_shifts(const PaneState& pane, PaneChart& chart);
@@ -46,39 +46,38 @@ private:
     static void add_point(std::vector<ErrorCurve>& curves, const Request& request, const ErrorPoint& point);
     void take(ViewerState& state, std::size_t slot);
 
-    std::array<Job, most_panes> jobs_; // by slot
+    std::array<Job, most_panes> jobs_; // index: slot
 };
 
-/// Makes in the background what some buffers need beside a snapshot, and puts it into the state: the reference
-/// that is wished for, and the first hits of what the panes show, once one of them wants to see any. Says so where
-/// the reference knows that it shows something else than the panes.
+/// Computes in the background the data that some buffers need beside a snapshot: reads the requested reference,
+/// and traces first hits while a pane shows a buffer of them. Reports a reference of another scene or camera.
 class CompanionJobs {
 public:
-    /// To be called every frame. `wake` is called from other threads when there is something new.
+    /// To be called every frame. `wake` is called from other threads when a result or progress is available.
     void update(ViewerState& state, const std::function<void()>& wake);
 
 private:
-    /// A reference that is read.
+    /// A reference file that is read.
     struct Reading {
         std::string file;
-        std::shared_ptr<std::atomic<float>> share; // how far, told by the work
+        std::shared_ptr<std::atomic<float>> fraction; // fraction read so far, [0, 1]; written by the work
     };
-    /// What a reference is compared with.
+    /// A comparison of a reference's checksums with a scene.
     struct Check {
         Identity reference, scene;
         bool operator==(const Check&) const = default;
     };
-    /// What first hits depend on, and how large they are.
+    /// Parameters of first hits.
     struct View {
         Identity scene;
         Camera camera;
         glm::ivec2 size{0};
         bool with_footprints = false;
-        int divisor = 1; // of the size
+        int divisor = 1; // of width and height; more than 1 for a preview
         bool operator==(const View&) const = default;
     };
     static View view_of(const ViewerState& state);
-    static bool is_of(const std::optional<View>& view, const ViewerState& state);
+    static bool is_current(const std::optional<View>& view, const ViewerState& state);
     void take_first_hits(ViewerState& state);
     void read_reference(std::string file, const std::function<void()>& wake);
     void update_reference(ViewerState& state, const std::function<void()>& wake);
@@ -86,24 +85,24 @@ private:
     void update_first_hits(ViewerState& state, const std::function<void()>& wake);
 
     BackgroundJob<Reading, std::shared_ptr<const Reference>> reference_;
-    BackgroundJob<Check, std::string> check_; // the result: in what it differs
+    BackgroundJob<Check, std::string> check_; // result: names of the parts that differ; empty: none
     BackgroundJob<View, std::shared_ptr<const FirstHits>> first_hits_;
-    std::optional<View> hit_; // what the first hits of the state are of
+    std::optional<View> first_hits_view_; // parameters of the state's first hits
 };
 
-/// Finds out in the background about the sample that the inspector is to show, and puts it into the state.
+/// Traces the path inspector's sample again in the background, and puts the result into the state.
 class InspectionJob {
 public:
-    /// To be called every frame. `wake` is called from another thread when there is something new.
+    /// To be called every frame. `wake` is called from another thread when a result is available.
     void update(ViewerState& state, const std::function<void()>& wake);
 
-    /// Whether what is to be shown is still being found out.
+    /// Whether an inspection is under way.
     bool running() const { return job_.running(); }
 
 private:
     struct Request {
         std::uint64_t generation = 0; // of the picture's request
-        SampleChoice sample;          // as it was chosen
+        SampleChoice sample;          // as chosen; its pixel may lie outside the picture
         int pass = 0;
         bool operator==(const Request&) const = default;
     };
@@ -112,7 +111,7 @@ private:
         float scene_radius = 0;
     };
     void take(ViewerState& state);
-    void drop_what_is_gone(ViewerState& state);
+    void drop_stale_sample(ViewerState& state);
     bool has_asked(const PassOrigin& origin, const SampleChoice& sample) const;
     std::shared_ptr<const PassOrigin> origin_of(const ViewerState& state, const SampleChoice& sample) const;
     int pass_of(const ViewerState& state, const PassOrigin& origin, const SampleChoice& sample) const;
@@ -122,11 +121,11 @@ private:
     BackgroundJob<Request, Found> job_;
 };
 
-/// Lets the slow motion go on, and finds its tiles out in the background.
+/// Advances the slow motion, and traces its tiles again in the background.
 class SlowMotionJob {
 public:
-    /// To be called every frame, with the seconds since the last. `wake` is called from another thread when there
-    /// is something new.
+    /// To be called every frame, with the seconds since the last one. `wake` is called from another thread when a
+    /// tile is available.
     void update(ViewerState& state, float seconds, const std::function<void()>& wake);
 
 private:
@@ -141,13 +140,13 @@ private:
     BackgroundJob<Request, std::shared_ptr<const TileInspection>> job_;
 };
 
-/// Finds out in the background what lies around the paths that are looked at.
+/// Traces in the background the surroundings of inspected paths: first hits and light positions.
 class SurroundingsJob {
 public:
-    /// To be called every frame. `wake` is called from another thread when there is something new.
+    /// To be called every frame. `wake` is called from another thread when a result is available.
     void update(ViewerState& state, const std::function<void()>& wake);
 
-    /// Whether they are still being found out.
+    /// Whether the trace is under way.
     bool running() const { return job_.running(); }
 
 private:
@@ -162,37 +161,37 @@ private:
     BackgroundJob<View, std::shared_ptr<const Surroundings>> job_;
 };
 
-/// Makes references in the background, as `tessera reference` does and to the same bits, on threads that give way
-/// to those of the panes. Its end, like a cancellation, stops the pass under way and leaves a checkpoint.
+/// Renders references in the background, bit-identical to those of `tessera reference`, on threads of lower
+/// priority than the panes'. Cancellation and the destructor stop the pass under way and leave a checkpoint.
 class ReferenceJob {
 public:
-    /// To be called every frame: fulfils the wishes to make a reference, and tells how far it is. What is
-    /// complete becomes the reference of the state if its scene, camera and size are still what the panes show.
-    /// `threads` as in ThreadPool; `wake` is called from another thread when there is something new.
+    /// Starts and stops reference renders as wished, and updates their progress. To be called every frame. A
+    /// complete reference becomes the state's if the panes show its scene, camera and size. `threads` as in
+    /// ThreadPool; `wake` is called from another thread when there is progress.
     void update(ViewerState& state, int threads, const std::function<void()>& wake);
 
 private:
-    /// What one of its renders has counted.
-    struct Counted {
+    /// Counters of one of the two halves.
+    struct HalfCounters {
         RenderSettings settings;
         Counters counters;
     };
-    /// What has become of it.
-    struct Made {
-        std::optional<FloorFreeError> error; ///< of a complete one; empty: it was cancelled
+    /// Result of a reference render.
+    struct MakingResult {
+        std::optional<FloorFreeError> error; ///< empty: the render was cancelled
         int spp = 0;
-        std::vector<Counted> halves;
+        std::vector<HalfCounters> halves;
     };
     class Watch;
-    /// What it is made of, and where it goes.
-    struct Order {
+    /// Subject and output file of a reference render.
+    struct MakingRequest {
         std::filesystem::path file;
         std::shared_ptr<const Scene> scene;
         Camera camera;
         glm::ivec2 size{0};
         std::shared_ptr<Watch> watch;
     };
-    using Job = BackgroundJob<Order, Made>;
+    using Job = BackgroundJob<MakingRequest, MakingResult>;
     void start(ViewerState& state, int threads, const std::function<void()>& wake);
     static void take(ViewerState& state, const Job::Outcome& outcome);
 

@@ -24,7 +24,7 @@ double seconds_since(Clock::time_point start) {
 
 } // namespace
 
-/// Looks at a render after every pass, and lets the UI know.
+/// Collects the progress of a reference render for the UI.
 class ReferenceJob::Watch {
 public:
     Watch(ReferenceProgress start, std::function<void()> wake)
@@ -35,11 +35,11 @@ public:
         return progress_;
     }
 
-    /// Whether to go on.
-    bool look(const ReferenceRender& render, const std::stop_token& stop) {
+    /// Updates the progress. To be called before each pass. Returns whether the render continues.
+    bool report(const ReferenceRender& render, const std::stop_token& stop) {
         const bool goes_on = !stop.stop_requested();
         std::optional<FloorFreeError> error;
-        if (goes_on && is_time_to_measure(render))
+        if (goes_on && is_measurement_due(render))
             error = measure(render);
         {
             const std::lock_guard lock(mutex_);
@@ -49,32 +49,32 @@ public:
             if (error)
                 progress_.error = error;
         }
-        if (wake_ && (error || seconds_since(woken_) > 0.2)) {
-            woken_ = Clock::now();
+        if (wake_ && (error || seconds_since(last_wake_) > 0.2)) {
+            last_wake_ = Clock::now();
             wake_();
         }
         return goes_on;
     }
 
 private:
-    /// Errors are to cost no more than a twentieth of the time.
-    bool is_time_to_measure(const ReferenceRender& render) const {
-        return render.spp() >= 2 && seconds_since(measured_) >= std::max(1.0, 20 * measuring_took_);
+    /// Limits measurements to about a twentieth of the time and to one per second.
+    bool is_measurement_due(const ReferenceRender& render) const {
+        return render.spp() >= 2 && seconds_since(last_measured_) >= std::max(1.0, 20 * measure_seconds_);
     }
     FloorFreeError measure(const ReferenceRender& render) {
         const auto start = Clock::now();
         const FloorFreeError error = render.error_so_far();
-        measured_ = Clock::now();
-        measuring_took_ = seconds_since(start);
+        last_measured_ = Clock::now();
+        measure_seconds_ = seconds_since(start);
         return error;
     }
 
     mutable std::mutex mutex_;
-    ReferenceProgress progress_; // guarded by it
+    ReferenceProgress progress_; // guarded by mutex_
     std::function<void()> wake_;
-    // Used by the render's thread alone.
-    Clock::time_point woken_, measured_;
-    double measuring_took_ = 0;
+    // Used by the thread of the render only.
+    Clock::time_point last_wake_, last_measured_;
+    double measure_seconds_ = 0;
 };
 
 void ReferenceJob::update(ViewerState& state, int threads, const std::function<void()>& wake) {
@@ -85,7 +85,7 @@ void ReferenceJob::update(ViewerState& state, int threads, const std::function<v
         job_.stop();
     if (const auto outcome = job_.take()) {
         take(state, *outcome);
-        job_.cancel(); // its order would keep the scene
+        job_.cancel(); // drops the request, which would keep the scene alive
     }
     making.progress.reset();
     if (job_.running()) {
@@ -107,50 +107,52 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
     progress.file = file;
     progress.spp_wanted = recipe.spp;
     progress.seconds_left = std::numeric_limits<double>::infinity();
-    const Order order{file, state.scene, state.camera.camera(), recipe.size,
-                      std::make_shared<Watch>(progress, wake)};
-    const PictureSubject subject{state.scene_info.source, order.scene, order.camera};
+    const MakingRequest request{file, state.scene, state.camera.camera(), recipe.size,
+                                std::make_shared<Watch>(progress, wake)};
+    const PictureSubject subject{state.scene_info.source, request.scene, request.camera};
     job_.start(
-        order,
-        [=, watch = order.watch, anew = std::exchange(making.anew, false)](std::stop_token stop) -> Made {
-            work_behind_others(); // and so do the pool's threads, which begin as their maker is
+        request,
+        [=, watch = request.watch,
+         anew = std::exchange(making.anew, false)](std::stop_token stop) -> MakingResult {
+            work_behind_others(); // the pool's threads inherit this priority
             check_writable(file);
             if (anew)
                 std::filesystem::remove(reference_checkpoint(file));
             ThreadPool pool(threads);
             ReferenceRender render(file, subject, recipe, pool);
             const bool is_complete =
-                render.run([&](const ReferenceRender& r) { return watch->look(r, stop); }, stop);
-            Made made{{}, render.spp(), {}};
+                render.run([&](const ReferenceRender& r) { return watch->report(r, stop); }, stop);
+            MakingResult result{{}, render.spp(), {}};
             for (const Render& half : render.halves())
-                made.halves.push_back({half.settings(), half.counters()});
+                result.halves.push_back({half.settings(), half.counters()});
             if (is_complete)
-                made.error = error_of(render.finish());
-            return made;
+                result.error = error_of(render.finish());
+            return result;
         },
         wake);
 }
 
 void ReferenceJob::take(ViewerState& state, const Job::Outcome& outcome) {
-    const Order& order = outcome.request;
-    const std::string file = order.file.string();
+    const MakingRequest& request = outcome.request;
+    const std::string file = request.file.string();
     if (!outcome.result)
         return state.add_message(Message::Kind::error,
-                                 "The reference " + file + " was not made: " + outcome.error);
-    const Made& made = *outcome.result;
-    for (const Counted& half : made.halves)
+                                 "Rendering the reference " + file + " has failed: " + outcome.error);
+    const MakingResult& result = *outcome.result;
+    for (const HalfCounters& half : result.halves)
         state.add_refused("The reference", half.counters, state.active().slot,
-                          {order.scene, order.camera, order.size, half.settings});
-    if (!made.error)
-        return state.add_message(Message::Kind::note,
-                                 fmt::format("The reference has {} spp; made again, it goes on from {}", made.spp,
-                                             reference_checkpoint(file).string()));
-    const bool is_on_show =
-        order.scene == state.scene && order.camera == state.camera.camera() && order.size == state.request_size();
+                          {request.scene, request.camera, request.size, half.settings});
+    if (!result.error)
+        return state.add_message(
+            Message::Kind::note,
+            fmt::format("The reference was stopped at {} spp; its next render continues from {}", result.spp,
+                        reference_checkpoint(file).string()));
+    const bool is_on_show = request.scene == state.scene && request.camera == state.camera.camera() &&
+                            request.size == state.request_size();
     state.add_message(Message::Kind::note,
                       fmt::format("Saved the reference, {} spp, to {}; its own relMSE is {:.3g} +- {:.2g}{}",
-                                  made.spp, file, made.error->relative_mse, made.error->standard_error,
-                                  is_on_show ? "" : ". It is not opened: the panes show another view by now"));
+                                  result.spp, file, result.error->relative_mse, result.error->standard_error,
+                                  is_on_show ? "" : ". It is not opened, because the panes show another view"));
     state.reference_making.show = false;
     if (is_on_show)
         state.wishes.open_reference = file;

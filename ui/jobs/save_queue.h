@@ -12,20 +12,20 @@
 
 namespace tessera {
 
-/// What came of writing.
+/// Result of writing a file.
 struct Saved {
     Saved(std::string saved, std::function<void()> afterwards = {})
         : what(std::move(saved)), then(std::move(afterwards)) {}
 
-    std::string what;           ///< was saved, and where; empty: nothing that anybody need be told of
-    std::function<void()> then; ///< to be called by who takes it; may be empty
+    std::string what;           ///< description of the saved file, for a message; empty: no message
+    std::function<void()> then; ///< called by the code that takes the outcome; may be empty
 };
 
-/// Files to write, one after the other in the background, in the order of their wishes: none of them is given up
-/// for a later one. Its end waits until all are written.
+/// Writes files in the background, one after the other, in the order of add(). The destructor waits until all are
+/// written.
 class SaveQueue {
 public:
-    /// Writes. Throws std::exception.
+    /// Writes a file. Throws std::exception.
     using Work = std::function<Saved()>;
     using Outcome = BackgroundJob<std::monostate, Saved>::Outcome;
 
@@ -34,15 +34,15 @@ public:
     SaveQueue(const SaveQueue&) = delete;
     SaveQueue& operator=(const SaveQueue&) = delete;
 
-    /// `on_done` is called from another thread once take() has the outcome; it may be empty.
+    /// Adds a file. `on_done` is called from another thread once take() has the outcome; it may be empty.
     void add(Work work, std::function<void()> on_done);
 
     bool running() const { return job_.running(); }
 
-    /// What came of the oldest, once; begins the next. Never waits.
+    /// Returns the outcome of the oldest file once, and starts the next. Empty: no file is complete. Never waits.
     std::optional<Outcome> take();
 
-    /// Writes all that is left, and waits; what came of each that had not been taken.
+    /// Waits until all files are written. Returns the outcomes that take() has not returned.
     std::vector<Outcome> finish();
 
 private:

@@ -18,7 +18,7 @@ SceneLoadResult load_scene(const SceneOrigin& origin, LoadProgress& progress) {
         loaded.scene = origin.loader(loaded.notes, progress);
         if (!loaded.scene)
             loaded.error = origin.name + ": no scene";
-    } catch (const std::exception& e) { // the notes until then are kept
+    } catch (const std::exception& e) { // loaded.notes keeps the notes so far
         loaded.error = message_of(e);
     }
     return loaded;

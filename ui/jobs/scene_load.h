@@ -16,80 +16,81 @@ namespace tessera {
 
 class Scene;
 
-/// What the user should know of a scene that was loaded.
+/// A note to the user on a loaded scene.
 struct SceneNote {
     std::string text;
     bool is_error = false; ///< something that the scene needs is missing
 };
 using SceneNotes = std::vector<SceneNote>;
 
-/// Makes a scene, on a thread other than the UI's. Appends to `notes` what the user should know of it, tells
-/// `progress` how far it is, and ends with an exception once that says to give up. Throws std::exception, whose
-/// what() is shown.
+/// Loads a scene, on a thread other than the UI's. Appends notes to the user, reports to `progress`, and throws
+/// once `progress` is cancelled. Throws std::exception, whose what() is shown.
 using SceneLoader = std::function<std::shared_ptr<const Scene>(SceneNotes& notes, LoadProgress& progress)>;
 
-/// A scene to load, and to load again.
+/// The origin of a scene, from which it can be loaded repeatedly.
 struct SceneOrigin {
-    std::string name;   ///< to show
-    SceneSource source; ///< without a camera: that is the viewer's
+    std::string name;   ///< display name
+    SceneSource source; ///< its `camera` is empty, because the viewer sets the camera
     SceneLoader loader;
 };
 
-/// Whether both are one scene, whatever way its file is named.
+/// Whether both are the same scene. Different paths of one file count as the same.
 bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b);
 
 /// Makes the origin of a scene file.
 using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
 
-/// A scene to begin with.
+/// A scene of the gallery.
 struct GalleryEntry {
     std::string title;
-    std::string help;           ///< what is special about it
-    std::string verdict;        ///< in short: how G-PR does there; empty: it is not known
-    bool is_worse = false;      ///< the verdict is not good
-    std::filesystem::path file; ///< empty: the one within the program
-    RgbImage picture{};         ///< small, in sRGB; empty: none
+    std::string help;           ///< tooltip: the special feature of the scene
+    std::string verdict;        ///< short judgement of G-PR on this scene; empty: unknown
+    bool is_worse = false;      ///< whether the verdict is negative
+    std::filesystem::path file; ///< empty: the scene that is built into the program
+    RgbImage picture{};         ///< thumbnail, sRGB; empty: none
 };
 
 struct GalleryContents {
     std::vector<GalleryEntry> entries;
-    std::string problem; ///< why some are missing; empty: none is
+    std::string problem; ///< reason for missing entries; empty: none is missing
 };
 
-/// Finds them, on a thread other than the UI's.
+/// Collects the gallery's scenes, on a thread other than the UI's.
 using GalleryMaker = std::function<GalleryContents()>;
 
-/// How a load ended.
+/// Result of a load.
 struct SceneLoadResult {
-    std::shared_ptr<const Scene> scene; ///< null: it failed
+    std::shared_ptr<const Scene> scene; ///< null: the load failed
     SceneOrigin origin;
     SceneNotes notes;
-    std::string error;
+    std::string error; ///< reason of the failure
 };
 
-/// One scene on its way, loaded in the background. Its end gives the scene up and waits for the loader.
+/// Loads one scene at a time in the background. The destructor cancels the load and waits for the loader.
 class SceneLoad {
 public:
-    /// A load under way is given up, as by cancel(). `on_done` is called from the loading thread once take() has a
-    /// result.
+    /// Starts a load, and cancels the one under way. `on_done` is called from the loading thread once take() has
+    /// a result.
     void start(SceneOrigin origin, std::function<void()> on_done);
 
-    /// Gives up what is under way: nothing more is heard of it.
+    /// Cancels the load under way. take() returns no result of it.
     void cancel() { job_.cancel(); }
 
     bool running() const { return job_.running(); }
-    const SceneOrigin& origin() const { return job_.asked()->origin; } ///< only while running, as the next two
+    const SceneOrigin& origin() const {
+        return job_.asked()->origin;
+    } ///< only while running, as progress() and seconds()
     LoadProgress::State progress() const { return job_.asked()->progress->state(); }
-    double seconds() const; ///< since its start
+    double seconds() const; ///< time since the start
 
-    /// The result, once; never waits.
+    /// Returns the result once, and empty before and after. Never waits.
     std::optional<SceneLoadResult> take();
 
 private:
     using Clock = std::chrono::steady_clock;
     struct Load {
         SceneOrigin origin;
-        std::shared_ptr<LoadProgress> progress; // told by the work, which may outlast this
+        std::shared_ptr<LoadProgress> progress; // shared with the loader, which may run on after cancel()
         Clock::time_point start;
     };
 

@@ -19,7 +19,7 @@
 
 namespace tessera {
 
-/// What a reader has asked of a file's objects: the rest is misspelt, or of another version.
+/// Records which fields of a file's objects have been read. Other fields are misspelt, or of another version.
 class JsonReading {
 public:
     using Json = nlohmann::ordered_json;
@@ -30,14 +30,14 @@ public:
     void opens(const std::string& path, const Json& object) { opened_[path].object = &object; }
     void asks(const std::string& path, const std::string& key) { opened_[path].keys.insert(key); }
 
-    /// A line for each field of the objects opened that nobody has asked for, with its place.
+    /// Returns a line with position for each field that has not been asked for in the opened objects.
     std::vector<std::string> unknown() const {
         std::vector<std::string> lines;
         for (const auto& [path, opened] : opened_)
             for (const auto& [key, value] : opened.object->items())
                 if (!opened.keys.contains(key))
-                    lines.push_back(text_.position_of(path + key).to_string() + ": there is no \"" + key +
-                                    "\": it is ignored");
+                    lines.push_back(text_.position_of(path + key).to_string() + ": the unknown field \"" + key +
+                                    "\" is ignored");
         return lines;
     }
 
@@ -47,15 +47,15 @@ private:
         std::set<std::string> keys;
     };
     const JsonText& text_;
-    std::map<std::string, Opened> opened_; // by path
+    std::map<std::string, Opened> opened_; // key: path
 };
 
-/// An object of the file, and where it stands in it. What is wrong with a field is told with its place.
+/// Reads an object of a JSON file. Errors in a field throw LoadError with line and column.
 class JsonFields {
 public:
     using Json = nlohmann::ordered_json;
 
-    /// `path` stands before the names of all its fields.
+    /// @param path  prefix of the names of all fields
     JsonFields(JsonReading& reading, const Json& json, std::string path)
         : reading_(reading), json_(json), path_(std::move(path)) {
         if (!json.is_object())
@@ -72,7 +72,7 @@ public:
         reading_.asks(path_, key);
         return json_.contains(key);
     }
-    /// The object of that name, or one without fields where there is none.
+    /// Returns the object of that name, or an empty object if there is none.
     JsonFields object(const std::string& key) const {
         static const Json none = Json::object();
         return {reading_, has(key) ? json_.at(key) : none, path_ + key + "/"};
@@ -81,11 +81,11 @@ public:
         return {reading_, array[i], path_ + key + "/" + std::to_string(i) + "/"};
     }
 
-    /// The field as a T: a bool, a number, a whole one from 0 on where T is unsigned, or a string.
+    /// Returns the field as a bool, a string, a number, or if T is unsigned a whole number of 0 or more.
     template <class T>
     T get(const std::string& key) const {
         const Json& value = json_.at(key);
-        // The library would make a number of true, and of -1 the largest there is.
+        // The library converts true to a number, and -1 to the largest unsigned number.
         const bool fits = std::is_same_v<T, bool>   ? value.is_boolean()
                           : std::is_unsigned_v<T>   ? value.is_number_unsigned()
                           : std::is_arithmetic_v<T> ? value.is_number()
@@ -93,10 +93,10 @@ public:
         if (!fits && std::is_unsigned_v<T> && !std::is_same_v<T, bool> && value.is_number())
             fail(key, key + " must be a whole number, 0 or more");
         if (!fits)
-            fail(key, key + " is of the wrong kind: " + value.type_name());
+            fail(key, key + " has the wrong type: " + value.type_name());
         return value.get<T>();
     }
-    /// Hands the value to `take`, which throws std::invalid_argument where it is no good.
+    /// Passes the value to `take`, which throws std::invalid_argument if it rejects the value.
     template <class T, class Take>
     void read(const std::string& key, Take take) const {
         if (!has(key))
@@ -118,7 +118,7 @@ public:
     void read(const std::string& key, bool& value) const {
         read<bool>(key, [&](bool on) { value = on; });
     }
-    /// A setting stands there as a number, true or false, or a word, under its id or another name.
+    /// Reads a setting, which is a number, true or false, or a string, under its id or under `key`.
     void read(const Setting& setting) const { read(std::string(setting.id), setting); }
     void read(const std::string& key, const Setting& setting) const {
         using S = Setting;

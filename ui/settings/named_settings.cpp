@@ -16,14 +16,14 @@ namespace tessera {
 
 namespace {
 
-/// A setting, and what must be done once it has got its value.
+/// A setting, with an action that follows when it is set.
 struct Named {
     Setting setting;
-    std::function<void()> follow = [] {};
+    std::function<void()> on_set = [] {};
 };
 
-/// Where values are put that the state takes in another way than by a member.
-struct Taken {
+/// Values that functions of the state take, instead of members.
+struct IndirectValues {
     int pane, panes, axis;
     bool inspector, slow_motion;
     float ui_scale;
@@ -51,32 +51,32 @@ void add_pane_settings(std::vector<Named>& all, ViewerState& s) {
     all.push_back({comparison_setting(pane.comparison.kind)});
 }
 
-void add_layout(std::vector<Named>& all, ViewerState& s, Taken& taken) {
-    all.push_back({{"active", "", "", Setting::Whole{&taken.pane, 1, static_cast<int>(s.panes.size())}},
-                   [&] { s.active_pane = taken.pane - 1; }});
-    all.push_back(
-        {{"panes", "", "", Setting::Whole{&taken.panes, 1, most_panes}}, [&] { s.set_pane_count(taken.panes); }});
+void add_layout(std::vector<Named>& all, ViewerState& s, IndirectValues& values) {
+    all.push_back({{"active", "", "", Setting::Whole{&values.pane, 1, static_cast<int>(s.panes.size())}},
+                   [&] { s.active_pane = values.pane - 1; }});
+    all.push_back({{"panes", "", "", Setting::Whole{&values.panes, 1, most_panes}},
+                   [&] { s.set_pane_count(values.panes); }});
     all.push_back({flag("alone", s.layout.alone)});
     all.push_back({real("wipe", s.layout.wipe, ranges::share.low(), ranges::share.high())});
     all.push_back({flag("linked", s.linked)});
     all.push_back({flag("panel", s.layout.show_panel)});
     all.push_back({flag("statistics", s.layout.show_statistics)});
     all.push_back({choice("theme", words::themes, s.layout.theme)});
-    all.push_back({real("ui_scale", taken.ui_scale, Layout::least_ui_scale, Layout::most_ui_scale),
-                   [&] { s.layout.set_ui_scale(taken.ui_scale); }});
+    all.push_back({real("ui_scale", values.ui_scale, Layout::least_ui_scale, Layout::most_ui_scale),
+                   [&] { s.layout.set_ui_scale(values.ui_scale); }});
     all.push_back({flag("charts", s.layout.show_charts)});
     all.push_back({choice("chart", words::charts, s.layout.chart_kind)});
     all.push_back({flag("large_charts", s.layout.large_charts)});
-    all.push_back(
-        {choice("charts_axis", words::chart_axes, taken.axis), [&] { s.layout.charts_by_spp = taken.axis == 1; }});
+    all.push_back({choice("charts_axis", words::chart_axes, values.axis),
+                   [&] { s.layout.charts_by_spp = values.axis == 1; }});
 }
 
-void add_pictures(std::vector<Named>& all, ViewerState& s, Taken& taken) {
+void add_pictures(std::vector<Named>& all, ViewerState& s, IndirectValues& values) {
     all.push_back({flag("paused", s.rendering.paused)});
     for (const Setting& setting : settings_of(s.rendering.pace))
         all.push_back({setting});
-    all.push_back(
-        {custom_size_setting(taken.size), [&] { s.rendering.size = {SizeChoice::Base::custom, 1, taken.size}; }});
+    all.push_back({custom_size_setting(values.size),
+                   [&] { s.rendering.size = {SizeChoice::Base::custom, 1, values.size}; }});
     for (const Setting& setting : settings_of(s.display.tone))
         all.push_back({setting});
     all.push_back({flag("magnifier", s.display.magnifier)});
@@ -89,25 +89,25 @@ void add_pictures(std::vector<Named>& all, ViewerState& s, Taken& taken) {
     all.push_back({method});
 }
 
-void add_insides(std::vector<Named>& all, ViewerState& s, Taken& taken) {
-    all.push_back({flag("inspector", taken.inspector), [&] { s.set_inspector(taken.inspector); }});
+void add_insides(std::vector<Named>& all, ViewerState& s, IndirectValues& values) {
+    all.push_back({flag("inspector", values.inspector), [&] { s.set_inspector(values.inspector); }});
     all.push_back({choice("inspector_shows", words::directions, s.inspector.direction)});
-    all.push_back({flag("slow_motion", taken.slow_motion), [&] { s.set_slow_motion(taken.slow_motion); }});
+    all.push_back({flag("slow_motion", values.slow_motion), [&] { s.set_slow_motion(values.slow_motion); }});
     all.push_back({flag("slow_motion_held", s.slow_motion.held)});
     all.push_back(
         {real("slow_motion_speed", s.slow_motion.speed, SlowMotion::least_speed, SlowMotion::most_speed)});
 }
 
-std::vector<Named> all_named(ViewerState& state, Taken& taken) {
+std::vector<Named> all_named(ViewerState& state, IndirectValues& values) {
     std::vector<Named> all;
     add_pane_settings(all, state);
-    add_layout(all, state, taken);
-    add_pictures(all, state, taken);
-    add_insides(all, state, taken);
+    add_layout(all, state, values);
+    add_pictures(all, state, values);
+    add_insides(all, state, values);
     return all;
 }
 
-/// "reference", or the number of a pane.
+/// Returns the_reference for "reference", or the index for the number of a pane.
 int compared_with(const std::string& value) {
     int pane = 0;
     if (value == "reference")
@@ -123,9 +123,9 @@ Buffer buffer_named(const std::string& value) {
         if (short_name(buffer) == value)
             return buffer;
     }
-    if (value == "failed") // as older settings files call it
+    if (value == "failed") // name in older settings files
         return Buffer::outcomes;
-    throw std::invalid_argument("no buffer is called " + value);
+    throw std::invalid_argument("unknown buffer " + value);
 }
 
 void set_by_name(ViewerState& state, const std::string& name, const std::string& value) {
@@ -138,25 +138,26 @@ void set_by_name(ViewerState& state, const std::string& name, const std::string&
         pane.comparison.with = compared_with(value);
         return;
     }
-    Taken taken{};
+    IndirectValues values{};
     std::string list = "buffer, compare_with";
-    for (const Named& named : all_named(state, taken)) {
+    for (const Named& named : all_named(state, values)) {
         if (named.setting.id == name) {
             named.setting.set_text(value);
-            return named.follow();
+            return named.on_set();
         }
         list += fmt::format(", {}", named.setting.id);
     }
-    throw std::invalid_argument(fmt::format("nothing is called {}; there are {}", name, list));
+    throw std::invalid_argument(fmt::format("unknown setting {}; the settings are {}", name, list));
 }
 
 std::vector<Setting> settings_of(Pace& pace) {
     return {
-        {"equal", "Panes have", "How the panes share the cores.", one_of(words::shares, pace.equal)},
-        {"spp_limit", "Stop at spp", "Samples a pixel after which the panes rest. 0: they never do.",
+        {"equal", "Compare at", "What is equal in all panes: render time or samples per pixel.",
+         one_of(words::shares, pace.equal)},
+        {"spp_limit", "Stop at spp", "Samples per pixel at which the panes stop. 0: no limit.",
          Setting::Whole{&pace.spp_limit, 0, most_spp}, pace.equal == Pace::Equal::spp || pace.spp_limit > 0},
         {"seconds_limit", "Stop at seconds",
-         "Seconds (wall time) of a pane's own passes after which it rests. 0: it never does.",
+         "Wall time of a pane's passes at which it stops, seconds. 0: no limit.",
          Setting::Seconds{&pace.seconds_limit, 0, most_seconds},
          pace.equal == Pace::Equal::time || pace.seconds_limit > 0},
     };
@@ -165,23 +166,22 @@ std::vector<Setting> settings_of(Pace& pace) {
 std::vector<Setting> settings_of(Tone& tone) {
     const float low = ranges::exposure.low(), high = ranges::exposure.high();
     return {
-        {"tone", "Tone curve", "How radiance becomes brightness on the screen (Y).",
-         one_of(words::tones, tone.curve)},
-        {"exposure", "Exposure", "Brightness on the screen: every stop doubles it. Gradients are enlarged alike.",
+        {"tone", "Tone curve", "Maps radiance to brightness on the screen (Y).", one_of(words::tones, tone.curve)},
+        {"exposure", "Exposure", "Brightness on the screen: each stop doubles it, also that of gradients.",
          Setting::Real{&tone.exposure, low, high, low, high, "%+.1f stops"}},
-        {"difference_exposure", "Of differences",
-         "Stops that gradients and differences have beyond the exposure; F6 finds them, too.",
+        {"difference_exposure", "Difference exposure",
+         "Additional exposure of gradients and differences. F6 sets it automatically.",
          Setting::Real{&tone.difference_exposure, 2 * low, 2 * high, low, high, "%+.1f stops"}},
     };
 }
 
 Setting comparison_setting(Comparison::Kind& kind) {
-    return {"comparison", "Active pane", "How the active pane shows another one's picture.",
+    return {"comparison", "Active pane", "How the active pane is compared with another pane or the reference.",
             one_of(words::comparisons, kind)};
 }
 
 Setting size_base_setting(SizeChoice::Base& base) {
-    return {"size", "Size", "How many pixels are rendered.", one_of(words::sizes, base)};
+    return {"size", "Size", "Number of rendered pixels.", one_of(words::sizes, base)};
 }
 
 Setting custom_size_setting(glm::ivec2& size) {

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 constexpr int largest_window = 16384;
 
-/// The text of a file; nothing where there is none of that name. Throws std::exception where it cannot be read: it
-/// is somebody else's, a folder, a link to nowhere.
+/// Returns the text of a file; empty if there is no such file. Throws std::exception if it cannot be read, such
+/// as a folder or a dangling link.
 std::optional<std::string> text_of(const fs::path& file) {
     std::error_code ignored;
     if (fs::symlink_status(file, ignored).type() == fs::file_type::not_found)
@@ -89,7 +89,7 @@ void Preferences::add_recent(const fs::path& scene) {
 fs::path preferences_file() {
     const char* config = std::getenv("XDG_CONFIG_HOME");
     const char* home = std::getenv("HOME");
-    if (config && *config == '/') // a relative one is to be ignored, as the XDG specification says
+    if (config && *config == '/') // the XDG specification says that a relative path is ignored
         return fs::path(config) / "tessera" / "viewer.json";
     return home && *home ? fs::path(home) / ".config" / "tessera" / "viewer.json" : fs::path();
 }
@@ -114,7 +114,7 @@ void write_preferences(const fs::path& file, const Preferences& p) {
                       {"recent_scenes", p.recent_scenes}};
     if (p.window.position)
         json["position"] = {p.window.position->x, p.window.position->y};
-    write_text(fs::weakly_canonical(file), to_text(json, 2) + "\n"); // a link stays one
+    write_text(fs::weakly_canonical(file), to_text(json, 2) + "\n"); // writes to a link's target
 }
 
 KeptPreferences claim_preferences(const fs::path& file) {
@@ -124,20 +124,20 @@ KeptPreferences claim_preferences(const fs::path& file) {
     if (condition == Condition::fine)
         return kept;
     std::error_code failed;
-    const fs::path target = fs::canonical(file, failed); // a link stays one
-    const fs::path aside = free_name(target.string() + ".broken");
+    const fs::path target = fs::canonical(file, failed); // renames a link's target
+    const fs::path renamed = free_name(target.string() + ".broken");
     if (condition == Condition::broken && !failed)
-        fs::rename(target, aside, failed);
+        fs::rename(target, renamed, failed);
     kept.can_be_replaced = condition == Condition::broken && !failed;
-    kept.note +=
-        kept.can_be_replaced ? "; it is now " + aside.string() : "; it stays as it is, and nothing is remembered";
+    kept.note += kept.can_be_replaced ? "; it is renamed to " + renamed.string()
+                                      : "; it stays unchanged, and preferences are not saved";
     return kept;
 }
 
 KeptPreferences store_preferences(const fs::path& file, Preferences preferences,
                                   const std::vector<std::string>& opened) {
     KeptPreferences kept = claim_preferences(file);
-    if (kept.note.empty()) // other viewers' too
+    if (kept.note.empty()) // keeps scenes that other viewers have added
         preferences.recent_scenes = std::move(kept.preferences.recent_scenes);
     for (const std::string& scene : opened)
         preferences.add_recent(scene);
@@ -145,7 +145,7 @@ KeptPreferences store_preferences(const fs::path& file, Preferences preferences,
     try {
         if (kept.can_be_replaced)
             write_preferences(file, kept.preferences);
-    } catch (const std::exception&) { // a full disk is nothing to tell of here
+    } catch (const std::exception&) { // a failure, such as a full disk, is not reported
     }
     return kept;
 }

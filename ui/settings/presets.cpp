@@ -6,8 +6,8 @@ namespace tessera {
 
 namespace {
 
-/// Returns settings without what came after the papers: they estimate radiance itself, with one camera ray per sample,
-/// connect edges of any length, and split no tile.
+/// Returns settings without Tessera's additions: no tile splitting, basis expansion, minimum distance of
+/// reconnections, Russian roulette on path length, path guiding, or additional camera rays at edges.
 PaneSettings plain() {
     PaneSettings s;
     s.render.adapt_tile = false;
@@ -53,25 +53,24 @@ PaneSettings fang() {
 }
 
 constexpr Preset table[] = {
-    {"ours", "Tessera", "The settings that the program begins with.", [] { return PaneSettings(); }},
+    {"ours", "Tessera", "The default settings.", [] { return PaneSettings(); }},
     {"bekaert2002", "Bekaert 2002",
-     "PR as first published: N-rooks patterns of 8, x1 joined to x2, direct light each pixel's own, no roulette "
-     "on reuse.",
+     "PR as first published: N-rooks patterns of 8 pixels, reconnection from x1 to x2, direct light not reused, "
+     "no Russian roulette on reuse.",
      bekaert},
     {"kettunen2015", "Kettunen 2015",
-     "G-PT as first published: half-vector copy and reconnection, L1 with alpha 0.2, without "
-     "albedo demodulation.",
+     "G-PT as first published: half-vector copy and reconnection, L1 with alpha 0.2, no albedo demodulation.",
      kettunen},
     {"bauszat2017", "Bauszat 2017",
-     "PR and G-PR in tiles of 6, with the absolute roulette (RR delta 0.1, q min 0.1), L1 with alpha 0.2.",
+     "PR and G-PR in tiles of 6 pixels, with absolute Russian roulette (RR delta 0.1, q min 0.1); L1, alpha 0.2.",
      bauszat},
     {"fang2024", "Fang 2024",
-     "Gradients of the light over the albedo; least absolute differences of the gradients, least squares of the "
-     "primal.",
+     "Gradients of albedo-demodulated radiance, mixed reconstruction: L1 for the gradients, L2 for the primal; "
+     "alpha 0.2.",
      fang},
 };
 
-/// Returns the preset's settings with those that the pane keeps.
+/// Returns the preset's settings with the settings that the pane keeps.
 PaneSettings with_own(PaneSettings preset, const PaneSettings& pane) {
     preset.render.method = pane.render.method;
     preset.render.seed = pane.render.seed;

@@ -7,22 +7,22 @@
 
 namespace tessera {
 
-/// Settings of a paper, or the program's own.
+/// Settings of a paper, or the program's defaults.
 struct Preset {
     std::string_view id;
     std::string_view label;
     std::string_view help;
-    PaneSettings (*settings)(); ///< render and reconstruction; apply() keeps some of the pane's own
+    PaneSettings (*settings)(); ///< returns render and reconstruction settings
 };
 
-/// Returns all presets; the program's own is the first.
+/// Returns all presets; the defaults are the first.
 std::span<const Preset> presets();
 
 /// Sets the pane's render and reconstruction to the preset's. The pane keeps its method, seed, maximum depth,
-/// light samples, buffer and comparison.
+/// buffer and comparison.
 void apply(const Preset& preset, PaneSettings& pane);
 
-/// Returns the index of the preset that apply() would not change the pane by; -1: none.
+/// Returns the index of the preset that the pane's settings equal, apart from those that apply() keeps; -1: none.
 int preset_of(const PaneSettings& pane);
 
 } // namespace tessera

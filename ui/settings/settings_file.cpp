@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The tone curve is "tone" elsewhere, and "curve" among the fields of "tone".
+/// Returns the JSON key of a setting: its id, but "curve" for the tone curve, whose object is called "tone".
 std::string key_of(const Setting& setting) {
     return setting.id == "tone" ? "curve" : std::string(setting.id);
 }
@@ -91,12 +91,12 @@ std::map<Buffer, ValueRange> read_ranges(const JsonFields& fields) {
         ends.read("high", {0, 1e12}, range.high);
         ends.read("logarithmic", range.logarithmic);
         if (!(range.low < range.high) || (range.logarithmic && range.low <= 0))
-            fields.fail(name, "the range of " + name + " is in disorder");
+            fields.fail(name, "the range of " + name + " needs low < high, and low > 0 if it is logarithmic");
     }
     return ranges;
 }
 
-/// Reads what is common to all panes, but for the camera.
+/// Reads size, tone, pace and ranges, which are common to all panes.
 void read_display(const JsonFields& fields, ViewerState& state) {
     const JsonFields size = fields.object("size"), tone = fields.object("tone"), pace = fields.object("pace");
     size.read("base", size_base_setting(state.rendering.size.base));
@@ -112,7 +112,7 @@ void read_display(const JsonFields& fields, ViewerState& state) {
         state.display.ranges = read_ranges(fields.object("ranges"));
 }
 
-/// Reads where the pictures lie, and what is drawn with them.
+/// Reads the view of the pictures, and the overlays and charts.
 void read_view(const JsonFields& fields, ViewerState& state) {
     const JsonFields picture = fields.object("picture"), chart = fields.object("charts");
     float zoom = state.display.view.zoom();
@@ -134,14 +134,14 @@ void read_view(const JsonFields& fields, ViewerState& state) {
 
 void read_panes(const JsonFields& fields, ViewerState& state) {
     if (!fields.has("panes"))
-        fields.fail("", "these are no settings of the viewer, and no camera");
+        fields.fail("", "this is neither a settings file of the viewer nor a camera file");
     const ordered_json& json = fields.json().at("panes");
     if (!json.is_array() || json.empty() || json.size() > most_panes)
         fields.fail("panes", "there must be 1 to 4 panes");
     std::vector<PaneSettings> panes;
     for (std::size_t i = 0; i < json.size(); ++i)
         panes.push_back(read_pane(fields.element(json, i, "panes"), state.active().settings));
-    state.linked = false; // while panes are counted, which shares settings out
+    state.linked = false; // so that set_pane_count() does not copy settings between panes
     state.set_pane_count(static_cast<int>(panes.size()));
     for (std::size_t i = 0; i < panes.size(); ++i)
         state.panes[i].settings = panes[i];
@@ -161,7 +161,7 @@ void read_bookmarks(const JsonFields& fields, const JsonText& text, const std::s
         return;
     const ordered_json& json = fields.json().at("bookmarks");
     if (!json.is_array())
-        fields.fail("bookmarks", "there must be a list of cameras");
+        fields.fail("bookmarks", "bookmarks must be a list of cameras");
     state.bookmarks.views.clear();
     for (std::size_t i = 0; i < json.size(); ++i) {
         Bookmark bookmark;
@@ -172,7 +172,7 @@ void read_bookmarks(const JsonFields& fields, const JsonText& text, const std::s
     state.bookmarks.current = static_cast<int>(state.bookmarks.views.size()) - 1;
 }
 
-/// Sets what the file says, up to where it is broken.
+/// Applies the fields of the file in turn. Throws LoadError at the first error; earlier fields are then applied.
 void read_all(const std::string& file, const std::string& name, ViewerState& state) {
     const JsonText text(file, name);
     const ordered_json json = text.parse();
@@ -196,7 +196,7 @@ void read_all(const std::string& file, const std::string& name, ViewerState& sta
         if (!state.companions.reference || state.companions.reference->name != reference)
             state.wishes.open_reference = reference;
     });
-    fields.has("scene"); // It is there for people, and known.
+    fields.has("scene"); // marks the field as known; it only informs readers
     for (std::string& line : reading.unknown())
         state.add_message(Message::Kind::note, std::move(line));
 }
@@ -213,7 +213,7 @@ ordered_json bookmarks_json(const ViewerState& state) {
 
 std::string settings_json(const ViewerState& state) {
     const ImageView view =
-        state.slow_motion.view_before.value_or(state.display.view); // it finds its tile by itself
+        state.slow_motion.view_before.value_or(state.display.view); // the view without slow motion
     ordered_json panes = ordered_json::array();
     for (const PaneState& pane : state.panes)
         panes.push_back(pane_json(pane.settings));
@@ -240,7 +240,7 @@ std::string settings_json(const ViewerState& state) {
         {"charts",
          {{"show", word(words::charts, state.layout.chart_kind)},
           {"against", word(words::chart_axes, state.layout.charts_by_spp ? 1 : 0)}}},
-        {"scene", state.scene_info.name}, // for people: settings are for any scene
+        {"scene", state.scene_info.name}, // informs readers; settings apply to any scene
         {"camera", ordered_json::parse(camera_json(state.camera.camera()))},
         {"target_distance", state.camera.distance()},
         {"bookmarks", bookmarks_json(state)},
@@ -267,7 +267,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Adds the field "sample" if it is a pixel of what a pane shows.
+/// Adds the field "sample" if the sample belongs to a render that a pane shows.
 void add_sample(ordered_json& json, const std::optional<SampleChoice>& sample, const ViewerState& state) {
     const PaneState* pane = sample ? state.pane_in(sample->slot) : nullptr;
     if (!pane || (sample->origin && !state.shows_request(sample->origin->generation)))
@@ -308,7 +308,7 @@ void read_slow_motion(const JsonFields& fields, ViewerState& state) {
     bool on = slow.active;
     fields.read("on", on);
     state.set_slow_motion(on);
-    slow.frames = on; // the picture lies as it did before the slow motion
+    slow.frames = on; // the view in the file is the one without slow motion
     fields.read("held", slow.held);
     fields.read("speed", {double{SlowMotion::least_speed}, double{SlowMotion::most_speed}}, slow.speed);
     if (const auto sample = read_sample(fields, state))
@@ -325,7 +325,7 @@ void add_inspection(ordered_json& json, const ViewerState& state) {
                          {"follows", inspector.follows}};
     add_sample(json["inspector"], inspector.sample, state);
     json["slow_motion"] = {{"on", slow.active}, {"held", slow.held}, {"speed", slow.speed}};
-    if (slow.active) // else it begins where the mouse is
+    if (slow.active) // otherwise the slow motion chooses a tile when it opens
         add_sample(json["slow_motion"], slow.sample, state);
 }
 

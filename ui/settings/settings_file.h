@@ -17,63 +17,62 @@ namespace tessera {
 
 class JsonFields;
 
-/// What a user has set, as JSON: the panes with all their settings, camera, size, tone, pace, ranges, where the
-/// pictures lie, what the path inspector and the slow motion show (add_inspection), and where the view in
-/// space looks.
+/// Returns the user's settings as JSON: the panes, camera, bookmarks, size, tone, pace, ranges, the view of the
+/// pictures, path inspector and slow motion (add_inspection), and the direction of the view in space.
 std::string settings_json(const ViewerState& state);
 
-/// Sets what such a text holds; what it does not mention stays. A camera file (camera_json in
-/// render/scene/camera.h) sets the camera alone. Throws LoadError with `name`, line and column, and has then
-/// changed nothing.
+/// Applies the settings in the text; missing fields change nothing. A camera file (camera_json in
+/// render/scene/camera.h) sets the camera only. Throws LoadError with `name`, line and column, and then changes
+/// nothing.
 void apply_settings_json(ViewerState& state, const std::string& json, const std::string& name);
 
-/// Sets what a file holds, as apply_settings_json does. Throws also where it cannot be read.
+/// Applies a settings file, as apply_settings_json does. Throws std::exception also if it cannot be read.
 void apply_settings_file(ViewerState& state, const std::filesystem::path& file);
 
-/// The buffer of that id. Throws std::invalid_argument where there is none.
+/// Returns the buffer with this id. Throws std::invalid_argument if there is none.
 Buffer buffer_named(const std::string& id);
 
-/// Sets a part of the state by its name from a word or number: a render setting of the active pane (of all, when
-/// linked), its method, buffer or comparison, or something of the viewer. Throws std::invalid_argument that says
-/// what there is or may be.
+/// Sets one setting by name: a render setting of the active pane (of all panes if they are linked), its method,
+/// buffer or comparison, or a setting of the viewer. Throws std::invalid_argument that lists the valid names or
+/// values.
 void set_by_name(ViewerState& state, const std::string& name, const std::string& value);
 
-/// The path inspector and the slow motion as fields of a settings file, "inspector" and "slow_motion": whether
-/// they are on, how they show things, and the pixel that is looked at, of a given pass or the newest there is. The
-/// shift chosen from its table is of the render that was, and not in it; nor is a pixel of an earlier picture.
+/// Adds the fields "inspector" and "slow_motion" of a settings file: their switches, display settings, and
+/// sample. The chosen shift is omitted, because it belongs to one render. A sample of an older render is omitted
+/// too.
 void add_inspection(nlohmann::ordered_json& json, const ViewerState& state);
 
-/// Sets what such fields say, once the panes are those of the file; what they do not mention stays.
+/// Applies these fields; missing ones change nothing. The panes of the file must be set already.
 void read_inspection(const JsonFields& fields, ViewerState& state);
 
-// Rows of the table of settings (render/settings/settings_table.h) for what is the viewer's own. What they are
-// bound to must outlive them.
+// Settings of the viewer itself, like those in render/settings/settings_table.h. The referenced values must
+// outlive them.
 
-/// How the panes share the cores, and when they rest.
+/// Returns the settings of the pace: the equal measure, and the limits of samples and time.
 std::vector<Setting> settings_of(Pace& pace);
 
-/// Tone curve, exposure and that of differences, in this order.
+/// Returns tone curve, exposure and difference exposure, in this order.
 std::vector<Setting> settings_of(Tone& tone);
 
-/// How the pane shows another one's picture.
+/// Returns the kind of a pane's comparison.
 Setting comparison_setting(Comparison::Kind& kind);
 
-/// What the number of rendered pixels follows: the pane, the scene, or a size of its own.
+/// Returns the base of the rendered size: the pane, the scene, or a custom size.
 Setting size_base_setting(SizeChoice::Base& base);
-/// The size where it is one of its own; the panes hold no more pixels than its limits allow.
+/// Returns the custom size, with an edge of at most most_render_pixels_an_edge.
 Setting custom_size_setting(glm::ivec2& size);
 
-/// What linked panes have in common: all of the render but its method, and the reconstruction.
+/// Returns the settings that linked panes share: reconstruction, seed, and render settings except the method.
 std::vector<Setting> shared_settings_of(PaneSettings& pane);
 
-/// Tells what changed from frame to frame, a line each: "pane 0 method gpr". For scripts and tests that drive the
-/// real window.
+/// Logs one line for each change between frames, such as "pane 0 method gpr". For scripts and tests that drive
+/// the real window.
 class ChangeLog {
 public:
     using Sink = std::function<void(const std::string&)>;
 
     void write_state(const ViewerState& state, const Sink& sink);
-    /// "control ID x0 y0 x1 y1", in screen units, for each control that is new or has moved.
+    /// Logs "control ID x0 y0 x1 y1", in screen units, for each control that is new or has moved.
     void write_controls(const Controls& controls, const Sink& sink);
 
 private:

@@ -33,14 +33,14 @@ fs::path folder_of(const fs::path& preferences) {
     return preferences.parent_path() / "recent";
 }
 
-/// Named after the scene for who looks, and after a checksum of its whole path, as many are called scene.xml.
+/// Returns the thumbnail's file: the scene's name and a checksum of its path, because many are called scene.xml.
 fs::path file_of(const fs::path& preferences, const std::string& scene) {
-    const std::string whole = fs::path(scene).lexically_normal().string();
-    return folder_of(preferences) / fmt::format("{}-{:08x}.png", fs::path(whole).stem().string(),
-                                                checksum(std::as_bytes(std::span(whole))));
+    const std::string full = fs::path(scene).lexically_normal().string();
+    return folder_of(preferences) /
+           fmt::format("{}-{:08x}.png", fs::path(full).stem().string(), checksum(std::as_bytes(std::span(full))));
 }
 
-/// Removes what is of no recent scene.
+/// Removes the thumbnails of scenes that are not recent.
 void tidy(const fs::path& preferences) {
     std::string ignored;
     std::set<fs::path> kept;
@@ -56,8 +56,8 @@ void tidy(const fs::path& preferences) {
 
 RgbImage thumbnail_of(const RgbImage& image, float exposure) {
     const glm::vec2 size(image.width(), image.height());
-    const glm::vec2 part = glm::min(size, glm::vec2(size.y * 4 / 3, size.x * 3 / 4));
-    const glm::vec2 first = (size - part) * 0.5f, step = part / glm::vec2(thumbnail_size);
+    const glm::vec2 crop = glm::min(size, glm::vec2(size.y * 4 / 3, size.x * 3 / 4));
+    const glm::vec2 first = (size - crop) * 0.5f, step = crop / glm::vec2(thumbnail_size);
     const Tone tone{Tone::Curve::srgb, exposure};
     RgbImage small(thumbnail_size.x, thumbnail_size.y);
     for (int y = 0; y < small.height(); ++y)
@@ -81,14 +81,15 @@ void store_thumbnail(const fs::path& preferences, const std::string& scene, cons
         for (int c = 0; c < 3; ++c)
             bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(pixel[c], 0.0f, 1.0f))));
     fs::create_directories(folder_of(preferences));
-    write_png(file_of(preferences, scene), {thumbnail.width(), thumbnail.height()}, bytes); // aside, then renamed
+    write_png(file_of(preferences, scene), {thumbnail.width(), thumbnail.height()},
+              bytes); // atomic: under a temporary name first
     tidy(preferences);
 }
 
 RgbImage read_thumbnail(const fs::path& preferences, const std::string& scene) {
     try {
         return to_rgb(parse_png(read_bytes(file_of(preferences, scene)), [] { return true; }));
-    } catch (const std::exception&) { // the scene was never rendered for long, or the file is broken
+    } catch (const std::exception&) { // no thumbnail is stored, or the file is broken
         return {};
     }
 }

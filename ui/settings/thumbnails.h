@@ -1,4 +1,4 @@
-// Small pictures of recent scenes, which lie in a folder beside the preferences.
+// Thumbnails of recent scenes, in a folder beside the preferences file.
 #pragma once
 
 #include "recon/image.h"
@@ -8,17 +8,19 @@
 
 namespace tessera {
 
-/// A picture of a scene for the gallery: the middle of it in 4:3, as the screen shows it at that exposure; sRGB in
-/// [0, 1]. The image is of radiance, and has at least one pixel.
+/// Returns a thumbnail of 160x120 pixels: the middle of the image in 4:3, in sRGB at this exposure, [0, 1].
+/// @param image     radiance; at least one pixel
+/// @param exposure  stops
 RgbImage thumbnail_of(const RgbImage& image, float exposure);
 
-/// Keeps the scene's, in place of an earlier one, and removes those of scenes that are not among the recent ones
-/// of the preferences, so that there are no more than of these. `scene` is its file in full. Throws
-/// std::exception.
+/// Stores the scene's thumbnail, and removes those of scenes that are not among the recent ones of the
+/// preferences. Throws std::exception.
+/// @param preferences  the preferences file
+/// @param scene        absolute name of the scene file
 void store_thumbnail(const std::filesystem::path& preferences, const std::string& scene,
                      const RgbImage& thumbnail);
 
-/// The scene's, as it was stored; empty: there is none that can be read.
+/// Returns the scene's stored thumbnail; empty: there is none, or it cannot be read.
 RgbImage read_thumbnail(const std::filesystem::path& preferences, const std::string& scene);
 
 } // namespace tessera

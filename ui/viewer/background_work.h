@@ -6,14 +6,14 @@
 
 namespace tessera {
 
-/// Computes in the background what the state needs beside the renders: the reference and first hits, the contents
-/// of path inspector and slow motion, the charts' numbers, and references to be made.
+/// Runs the background jobs of the viewer except the renders: references, first hits, charts, path inspector and
+/// slow motion.
 class BackgroundWork {
 public:
-    /// Takes in results and starts what the state lacks. To be called every frame.
-    /// @param seconds  since the last frame
-    /// @param threads  of the renders that make references, as in ThreadPool
-    /// @param wake     called from other threads when there is something new
+    /// Puts results into the state and starts the jobs that it lacks. To be called every frame.
+    /// @param seconds  time since the last frame
+    /// @param threads  number of threads of a reference render, as in ThreadPool
+    /// @param wake     called from other threads when a job has news
     void update(ViewerState& state, float seconds, int threads, const std::function<void()>& wake) {
         companions_.update(state, wake);
         inspection_.update(state, wake);
@@ -32,7 +32,7 @@ private:
     SlowMotionJob slow_motion_;
     SurroundingsJob surroundings_;
     ChartJob charts_;
-    ReferenceJob reference_; // last: its destructor waits for a pass
+    ReferenceJob reference_; // last, because its destructor waits for the pass under way
 };
 
 } // namespace tessera

@@ -14,9 +14,9 @@ void Overlays::follow_jobs(ViewerState& state, const ViewerOptions& options) {
     const std::filesystem::path folder = std::exchange(state.wishes.follow_jobs, {});
     if (folder.empty() || !options.read_jobs)
         return;
-    std::error_code gone; // the current folder: the name stays as given
-    const std::filesystem::path whole = std::filesystem::absolute(folder, gone).lexically_normal();
-    follower_.follow(gone ? folder : whole, options.read_jobs(folder), options.wake);
+    std::error_code failed; // there is no current folder: the name stays as given
+    const std::filesystem::path absolute = std::filesystem::absolute(folder, failed).lexically_normal();
+    follower_.follow(failed ? folder : absolute, options.read_jobs(folder), options.wake);
     state.layout.show_jobs = true;
 }
 
@@ -42,7 +42,7 @@ void Overlays::draw(const ScreenRect& pictures, Controls& controls, ViewerState&
                       {options.gallery, options.preferences, thumbnails_stored, options.wake});
     palette_.draw(screen, controls, state);
     draw_toast(pictures, controls, state);
-    file_dialog_.draw(screen, controls, state); // last, because no window may appear after a modal one
+    file_dialog_.draw(screen, controls, state); // last, because a modal window must be the topmost
 }
 
 } // namespace tessera

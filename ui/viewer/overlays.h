@@ -8,16 +8,17 @@
 
 namespace tessera {
 
-/// The windows over the pictures: dialogs, gallery, help, list of commands, followed folder, progress and toasts.
+/// Windows over the pictures: dialogs, gallery, help, command palette, followed folder, loading progress and
+/// toasts.
 class Overlays {
 public:
-    /// Starts to follow the folder that the state wishes for, if the options can read one.
+    /// Fulfils the wish to follow a folder of jobs, if the options have a reader for it.
     void follow_jobs(ViewerState& state, const ViewerOptions& options);
 
-    /// Draws those that the state shows.
-    /// @param pictures           the part of the window that has the panes
-    /// @param load               the scene that is being loaded, if one is
-    /// @param thumbnails_stored  so far; the gallery reads its pictures again when the number changes
+    /// Draws the overlays that the state shows.
+    /// @param pictures           area of the panes, screen units
+    /// @param load               state of the scene load under way, if there is one
+    /// @param thumbnails_stored  number of thumbnails stored so far; the gallery reloads them when it changes
     void draw(const ScreenRect& pictures, Controls& controls, ViewerState& state, const ViewerOptions& options,
               const SceneLoad& load, int thumbnails_stored);
 

@@ -17,9 +17,10 @@ namespace tessera {
 
 namespace {
 
-/// Returns the place of a pane. Two panes are arranged to maximise picture size; three or more lie in two rows.
+/// Returns the rectangle of a pane. Two panes are arranged to maximise picture size; three or four lie in two
+/// rows.
 ScreenRect pane_rect(const ScreenRect& all, int pane, int panes, glm::vec2 picture) {
-    const float strips = 3.6f * ImGui::GetFontSize(); // heights above and below a picture
+    const float strips = 3.6f * ImGui::GetFontSize(); // total height of the strips above and below a picture
     const auto scale = [&](int columns, int rows) {
         const glm::vec2 room = all.size() / glm::vec2(columns, rows) - glm::vec2(0, strips);
         return std::min(room.x / picture.x, room.y / picture.y);
@@ -70,7 +71,7 @@ void PictureArea::expose(ViewerState& state) const {
     const auto clamped = [](float stops) {
         return std::clamp(stops, ranges::exposure.low(), ranges::exposure.high());
     };
-    if (shows_slow_motion(state.active_pane, state)) { // covers the picture
+    if (shows_slow_motion(state.active_pane, state)) { // it covers the picture
         if (const auto exposure = exposure_of(slow_motion_luminances(state.slow_motion)))
             state.display.tone.exposure = clamped(*exposure);
         return;
@@ -85,7 +86,7 @@ void PictureArea::expose(ViewerState& state) const {
         state.display.ranges[buffer] = automatic_range(buffer, image.pixels(), state.companions);
     else if (const auto exposure = exposure_of(showing, images_); exposure && map == ColourMap::signed_difference)
         state.display.tone.difference_exposure =
-            clamped(*exposure) - state.display.tone.exposure; // the exposure of pictures stays
+            clamped(*exposure) - state.display.tone.exposure; // relative to the exposure of the pictures
     else if (exposure)
         state.display.tone.exposure = clamped(*exposure);
 }

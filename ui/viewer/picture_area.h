@@ -11,22 +11,22 @@
 
 namespace tessera {
 
-/// The part of the window that shows the panes: their views, and the images that they show.
+/// Area of the window that shows the panes.
 class PictureArea {
 public:
-    /// Draws the panes on show. Their controls and the mouse over them change the state.
+    /// Draws the visible panes, and applies the input of their controls and of the mouse to the state.
     void draw(const ScreenRect& where, Controls& controls, ViewerState& state);
 
-    /// Sets the exposure, or the range of false colours, that fits what the active pane shows.
+    /// Sets the exposure, or the range of false colours, from the pixels that the active pane shows.
     void expose(ViewerState& state) const;
 
-    /// Returns what the active pane shows, one pixel for each of the image's. Empty: there is no picture yet.
+    /// Returns the active pane's picture at the image's resolution. Empty: there is no picture yet.
     ScreenPixels active_picture(const ViewerState& state) const {
         return view_picture(state.active_pane, shader_, images_, state);
     }
 
     const PaneView& view(int pane) const { return views_[pane]; }
-    const PaneImages& images() const { return images_; } ///< by pane, and the_reference
+    const PaneImages& images() const { return images_; } ///< index: pane or the_reference
     const PaneImage& image(int pane) const { return images_[pane]; }
 
 private:

@@ -17,11 +17,10 @@ namespace tessera {
 
 namespace {
 
-constexpr const char* no_picture_yet = "There is no picture to save yet: only a first look, or none.";
-constexpr int frames_until_closed = 3; // of a menu
+constexpr const char* no_picture_yet = "There is no picture to save yet: the pane shows a preview, or nothing.";
+constexpr int frames_until_menu_closed = 3;
 
-/// Returns the chosen file. Without one, returns a name with the date and this ending in the folder of the last
-/// save.
+/// Returns the chosen file. If it is empty, returns a dated name with this ending in the folder of the last save.
 std::filesystem::path file_to_save(const ViewerState& state, const std::string& chosen,
                                    const std::string& ending) {
     return chosen.empty() ? dated_file(ending, state.layout.save_folder) : std::filesystem::path(chosen);
@@ -30,7 +29,7 @@ std::filesystem::path file_to_save(const ViewerState& state, const std::string& 
 } // namespace
 
 void Saver::fulfil(ViewerState& state, const PictureArea& pictures, const SceneSource& source) {
-    // take() clears each wish, whether or not there is something to save.
+    // take() clears a wish even if there is nothing to save.
     SaveWishes& wishes = state.wishes.saves;
     if (const auto file = wishes.take(SaveKind::camera))
         save_camera(state, source, *file);
@@ -108,7 +107,7 @@ void Saver::save_picture(ViewerState& state, const PictureArea& pictures, const 
 }
 
 void Saver::fulfil_charts(ViewerState& state) {
-    if (state.charts.histograms_due) // their end brings a frame
+    if (state.charts.histograms_due) // a new frame follows when they are complete
         return;
     const std::optional<std::string> chosen = state.wishes.saves.take(SaveKind::charts);
     if (!chosen)
@@ -127,7 +126,7 @@ void Saver::fulfil_charts(ViewerState& state) {
 
 bool PictureSaver::after_frame(ViewerState& state, Saver& saver, glm::ivec2 pixels) {
     age_ = state.wishes.saves.has(SaveKind::window) ? age_ + 1 : 0;
-    if (age_ == frames_until_closed) {
+    if (age_ == frames_until_menu_closed) {
         const std::string chosen = *state.wishes.saves.take(SaveKind::window);
         saver.save([file = file_to_save(state, chosen, ".png"), screen = read_screen(pixels)] {
             write_png(file, screen.size, screen.rgb);

@@ -15,25 +15,26 @@
 
 namespace tessera {
 
-/// Writes what the state wishes to save, in the background and in the order of the wishes. A message reports each
-/// outcome: "Saved " with the file, or the error.
+/// Fulfils the state's wishes to save files, in the background and in their order. A message reports each
+/// outcome: "Saved " with the file name, or the error.
 class Saver {
 public:
     /// @param write_exr  may be empty: a wish for an EXR file becomes an error message
-    /// @param wake       called from another thread when an outcome is there
+    /// @param wake       called from another thread when a file is written or has failed
     Saver(PictureWriter write_exr, std::function<void()> wake)
         : write_exr_(std::move(write_exr)), wake_(std::move(wake)) {}
 
     void save(SaveQueue::Work write) { queue_.add(std::move(write), wake_); }
     bool running() const { return queue_.running(); }
 
-    /// Fulfils the wishes for camera, settings, EXR file and picture, and reports the oldest outcome.
-    /// @param source  the scene on show
+    /// Starts to save camera, settings, EXR file and picture as wished, and reports the oldest outcome.
+    /// @param source  source of the scene on show
     void fulfil(ViewerState& state, const PictureArea& pictures, const SceneSource& source);
-    /// Fulfils the wish for the charts once the histograms are complete.
+    /// Starts to save the charts as wished, once the histograms are complete.
     void fulfil_charts(ViewerState& state);
 
-    /// Writes everything that is left, waits, and prints errors to stderr: nobody reads messages any more.
+    /// Writes all waiting files, waits for them, and prints errors to stderr, because messages are not shown at
+    /// exit.
     void finish();
 
 private:
@@ -48,11 +49,12 @@ private:
     std::function<void()> wake_;
 };
 
-/// Saves the picture of the window, some frames after the wish, when the menu that it came from is closed.
+/// Saves the picture of the window some frames after the wish, so that the menu it came from is closed.
 class PictureSaver {
 public:
-    /// To be called after each frame, while its framebuffer is bound for reading. True: another frame is due.
+    /// To be called after each frame, while its framebuffer is bound for reading.
     /// @param pixels  size of the framebuffer
+    /// @return        whether another frame is due
     bool after_frame(ViewerState& state, Saver& saver, glm::ivec2 pixels);
 
 private:

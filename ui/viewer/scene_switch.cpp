@@ -10,12 +10,12 @@
 namespace tessera {
 
 void SceneSwitch::load(SceneOrigin origin) {
-    asked_ = std::move(origin);
-    load_.start(asked_, wake_);
+    requested_ = std::move(origin);
+    load_.start(requested_, wake_);
 }
 
 void SceneSwitch::reload(const ViewerState& state) {
-    const SceneOrigin origin = load_.running() || !state.scene ? asked_ : shown_;
+    const SceneOrigin origin = load_.running() || !state.scene ? requested_ : shown_;
     if (origin.loader)
         load(origin);
 }
@@ -24,7 +24,7 @@ void SceneSwitch::cancel(ViewerState& state) {
     if (!load_.running())
         return;
     const SceneOrigin origin = load_.origin();
-    const std::string text = "Loading " + origin.name + " was given up.";
+    const std::string text = "Loading " + origin.name + " was cancelled.";
     load_.cancel();
     state.add_message(Message::Kind::note, text, Message::Origin::failed_load);
     state.scene_info.loading.clear();
@@ -33,7 +33,8 @@ void SceneSwitch::cancel(ViewerState& state) {
         state.scene_info.problem = {text, false};
 }
 
-/// Drops the settings that wait for a scene which does not come, unless they are for the one on show.
+/// Drops the settings that wait for this load, which has ended without a scene. After a failed reload they apply
+/// to the scene on show.
 void SceneSwitch::drop_settings_of(ViewerState& state, const SceneOrigin& origin) const {
     if (!is_same_scene(shown_, origin))
         state.wishes.open_settings.clear();
@@ -63,37 +64,36 @@ bool SceneSwitch::take(ViewerState& state) {
 }
 
 void SceneSwitch::show(ViewerState& state, std::shared_ptr<const Scene> scene, const SceneOrigin& origin) {
-    const std::shared_ptr<const Scene> before = std::exchange(state.scene, std::move(scene));
-    const bool again = before && is_same_scene(shown_, origin);
+    const std::shared_ptr<const Scene> previous = std::exchange(state.scene, std::move(scene));
+    const bool is_reload = previous && is_same_scene(shown_, origin);
     shown_ = origin;
     state.scene_info.problem = {};
     state.scene_info.name = origin.name;
     state.scene_info.source = origin.source;
     state.space = {};
     ++state.scene_info.shown;
-    if (!again || !(before->camera() == state.scene->camera())) {
+    if (!is_reload || !(previous->camera() == state.scene->camera())) {
         state.camera.set_home(state.scene->camera(), state.scene->center(), state.scene->radius());
         state.set_view({});
     }
-    if (!again) {
+    if (!is_reload) {
         state.history = {};
         state.bookmarks.views.clear();
         state.bookmarks.current = -1;
     }
-    set_depths(state, again ? before.get() : nullptr);
+    set_depths(state, is_reload ? previous.get() : nullptr);
 }
 
-/// Sets the maximum depth of all panes to the scene's.
-/// @param same_before  the same scene as loaded before, against which a depth that the user has set is recognised
-/// and
-///                     kept; null: it is another scene
-void SceneSwitch::set_depths(ViewerState& state, const Scene* same_before) const {
+/// Sets the maximum depth of all panes to the scene's. A reload keeps depths that differ from the previous
+/// load's.
+/// @param previous  the previous load of the same scene; null: the scene is another one
+void SceneSwitch::set_depths(ViewerState& state, const Scene* previous) const {
     const auto depth_of = [&](const Scene& s) {
         return std::clamp(max_depth_.value_or(s.max_depth()), 1, most_edges);
     };
     const auto set_depth = [&](PaneSettings& pane) {
         int& depth = pane.render.max_depth;
-        if (!same_before || depth == depth_of(*same_before))
+        if (!previous || depth == depth_of(*previous))
             depth = depth_of(*state.scene);
     };
     std::ranges::for_each(state.panes, set_depth, &PaneState::settings);

@@ -10,24 +10,24 @@
 
 namespace tessera {
 
-/// Loads scenes in the background, one at a time, and puts each into the state when it is complete. The scene
-/// before stays in the state until then, or if the load fails.
+/// Loads scenes in the background, one at a time, and puts each into the state when it is complete. If the load
+/// fails, the scene on show stays.
 class SceneSwitch {
 public:
-    /// @param max_depth  of all scenes; empty: each scene's own
+    /// @param max_depth  maximum depth for all scenes; empty: each scene's own
     /// @param wake       called from the loading thread when a load has ended
     SceneSwitch(std::optional<int> max_depth, std::function<void()> wake)
         : max_depth_(max_depth), wake_(std::move(wake)) {}
 
-    /// Starts a load. Cancels the one under way.
+    /// Starts a load, and cancels the one under way.
     void load(SceneOrigin origin);
-    /// Loads the scene on show again, or the last one that load() was called for if it is not on show yet.
+    /// Reloads the scene on show. While a load runs or no scene is on show, repeats the last load() instead.
     void reload(const ViewerState& state);
     /// Cancels the load under way, if there is one, and reports it.
     void cancel(ViewerState& state);
 
-    /// Puts a load that has ended into the state: its scene, or its error. True: another scene is on show. A scene
-    /// that is loaded again keeps the camera, unless the file's has changed, and what the user has set.
+    /// Puts a finished load into the state: its scene, or its error. A reload keeps the user's settings, and the
+    /// camera unless the file's camera has changed. Returns whether a new scene is on show.
     bool take(ViewerState& state);
 
     const SceneLoad& under_way() const { return load_; }
@@ -35,14 +35,14 @@ public:
 
 private:
     void show(ViewerState& state, std::shared_ptr<const Scene> scene, const SceneOrigin& origin);
-    void set_depths(ViewerState& state, const Scene* same_before) const;
+    void set_depths(ViewerState& state, const Scene* previous) const;
     void drop_settings_of(ViewerState& state, const SceneOrigin& origin) const;
 
     std::optional<int> max_depth_;
     std::function<void()> wake_;
     SceneLoad load_;
     SceneOrigin shown_;
-    SceneOrigin asked_; // of the last load()
+    SceneOrigin requested_; // argument of the last load()
 };
 
 } // namespace tessera

@@ -18,35 +18,36 @@ namespace {
 
 struct StepKind {
     const char* word;
-    int least, most; // arguments
+    int min_arguments, max_arguments;
     const char* usage;
     const char* help;
 };
 
 constexpr StepKind kinds[] = {
     {"wait", 1, 2, "wait scene | spp N | seconds S | reference",
-     "until it is loaded, until all panes have N samples a pixel, so long, or until a reference is there"},
+     "waits for the scene, for N samples per pixel in all panes, for S seconds, or for a reference"},
     {"key", 1, 1, "key Ctrl+S", "presses and releases a key, or types a character"},
-    {"hold", 1, 1, "hold B", "presses a key"},
-    {"release", 1, 1, "release B", "releases it"},
-    {"modifiers", 1, 2, "modifiers ctrl shift | none", "held while the mouse is used"},
-    {"move", 1, 2, "move POINT", "the mouse; a point is X Y, CONTROL or CONTROL@FX,FY (shares of its size)"},
-    {"click", 1, 2, "click POINT", "the left button"},
+    {"hold", 1, 1, "hold B", "presses a key and holds it"},
+    {"release", 1, 1, "release B", "releases a key"},
+    {"modifiers", 1, 2, "modifiers ctrl shift | none", "sets the modifier keys that are held during mouse steps"},
+    {"move", 1, 2, "move POINT",
+     "moves the mouse; POINT is X Y, CONTROL or CONTROL@FX,FY (fractions of its size)"},
+    {"click", 1, 2, "click POINT", "clicks the left mouse button"},
     {"choose", 2, 2, "choose CONTROL ITEM", "opens a list and clicks an item"},
-    {"drag", 2, 4, "drag POINT POINT", "with the left button, in 8 frames"},
-    {"wheel", 1, 1, "wheel N", "notches, up is positive"},
+    {"drag", 2, 4, "drag POINT POINT", "drags with the left mouse button, in 8 frames"},
+    {"wheel", 1, 1, "wheel N", "turns the mouse wheel by N notches; positive is up"},
     {"set", 2, 2, "set NAME VALUE",
-     "a setting of the active pane or of the viewer, such as tile 4, panes 2, exposure 1.5"},
+     "changes a setting of the active pane or of the viewer: tile 4, panes 2, exposure 1.5"},
     {"inspect", 3, 3, "inspect X Y PASS",
      "opens a sample of the active pane in the path inspector, and waits for it"},
-    {"open", 1, 1, "open FILE", "a scene, an EXR reference, or settings (JSON), as if dropped on the window"},
-    {"reference", 1, 1, "reference FILE", "an EXR file to measure errors against"},
-    {"screenshot", 1, 1, "screenshot FILE.png", "of the window"},
+    {"open", 1, 1, "open FILE", "opens a scene, an EXR reference or settings (JSON), as if dropped on the window"},
+    {"reference", 1, 1, "reference FILE", "opens an EXR file to measure errors against"},
+    {"screenshot", 1, 1, "screenshot FILE.png", "saves a picture of the window"},
     {"frames", 2, 2, "frames N LABEL",
-     "draws N frames and prints how long they took: median, 99th percentile, milliseconds"},
-    {"orbit", 2, 2, "orbit N LABEL", "the same while the mouse drags the camera of the active pane"},
-    {"print", 1, 1, "print TEXT", "on standard output"},
-    {"quit", 0, 0, "quit", "ends the program; without it the viewer stays"},
+     "draws N frames and prints median and 99th percentile of their times, milliseconds"},
+    {"orbit", 2, 2, "orbit N LABEL", "does the same while the mouse drags the camera of the active pane"},
+    {"print", 1, 1, "print TEXT", "prints TEXT on standard output"},
+    {"quit", 0, 0, "quit", "ends the program; without this step the viewer stays open"},
 };
 
 std::vector<std::string> words_of(const std::string& line, const std::string& file, int number) {
@@ -57,7 +58,7 @@ std::vector<std::string> words_of(const std::string& line, const std::string& fi
         std::string word;
         text >> std::quoted(word);
         if (quoted && (text.unget(), text.get() != '"'))
-            throw ScriptError(file, number, "a quotation has no end");
+            throw ScriptError(file, number, "missing closing quotation mark");
         words.push_back(std::move(word));
     }
     return words;
@@ -70,11 +71,11 @@ void check(const ScriptStep& step, const std::string& file) {
         std::string known;
         for (const StepKind& k : kinds)
             known += std::string(known.empty() ? "" : ", ") + k.word;
-        throw ScriptError(file, step.line, "no step is called " + step.word + "; there are " + known);
+        throw ScriptError(file, step.line, "unknown step " + step.word + "; the steps are " + known);
     }
     const int count = static_cast<int>(step.arguments.size());
-    if (count < kind->least || count > kind->most)
-        throw ScriptError(file, step.line, std::string("it is: ") + kind->usage);
+    if (count < kind->min_arguments || count > kind->max_arguments)
+        throw ScriptError(file, step.line, std::string("usage: ") + kind->usage);
 }
 
 } // namespace
@@ -111,11 +112,11 @@ std::string script_help() {
     return text.str();
 }
 
-double quantile(std::vector<double> values, double share) {
+double quantile(std::vector<double> values, double fraction) {
     if (values.empty())
         return 0;
     std::sort(values.begin(), values.end());
-    const double place = std::ceil(share * static_cast<double>(values.size())) - 1;
+    const double place = std::ceil(fraction * static_cast<double>(values.size())) - 1;
     return values[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(values.size() - 1)))];
 }
 

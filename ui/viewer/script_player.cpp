@@ -20,31 +20,31 @@ namespace tessera {
 
 namespace {
 
-constexpr int settling_frames = 3; // Dear ImGui opens popups and sizes windows a frame or two later
+constexpr int settling_frames = 3; // Dear ImGui opens popups and sizes windows with a delay of one or two frames
 constexpr int drag_frames = 8;
-constexpr double patience = 600; // seconds that a script waits
+constexpr double wait_timeout = 600; // seconds
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// How far a pane's pictures are behind its camera.
+/// Measures the delay of a pane's pictures behind its camera.
 class CameraLag {
 public:
-    /// To be called before every frame. Adds to `behind` when the last one has shown the first picture of a
-    /// camera.
-    void look(const PaneState& pane, std::vector<double>& behind) {
-        asked_.try_emplace(pane.generation, std::exchange(last_, now())); // by the last frame's input
+    /// Appends a delay to `behind`, seconds, if the last frame showed the first picture of a camera. To be called
+    /// before every frame.
+    void record(const PaneState& pane, std::vector<double>& behind) {
+        requested_.try_emplace(pane.generation, std::exchange(last_, now())); // the last frame's input
         const std::uint64_t shown = pane.snapshot ? pane.snapshot->generation : 0;
         if (shown == std::exchange(shown_, shown))
             return;
-        if (const auto asked = asked_.find(shown); asked != asked_.end())
+        if (const auto asked = requested_.find(shown); asked != requested_.end())
             behind.push_back(now() - asked->second);
     }
 
 private:
-    std::map<std::uint64_t, double> asked_; // when the pane first asked for a generation
-    double last_ = now();                   // when the last frame began
+    std::map<std::uint64_t, double> requested_; // time of the first request of each generation
+    double last_ = now();                       // begin of the last frame
     std::uint64_t shown_ = 0;
 };
 
@@ -71,9 +71,9 @@ void ScriptPlayer::before_frame(double last_frame_seconds) {
 }
 
 void ScriptPlayer::after_frame() {
-    if (!picture_)
+    if (!screenshot_)
         return;
-    const std::filesystem::path file = *std::exchange(picture_, std::nullopt);
+    const std::filesystem::path file = *std::exchange(screenshot_, std::nullopt);
     try {
         outside_.screenshot(file);
     } catch (const std::exception& error) {
@@ -93,14 +93,14 @@ double ScriptPlayer::number(const std::string& text) const {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != 0)
-        fail(text + " is no number");
+        fail(text + " is not a number");
     return value;
 }
 
 int ScriptPlayer::whole(const std::string& text) const {
     const double value = number(text);
     if (value != std::floor(value) || value < 0 || value > std::numeric_limits<int>::max())
-        fail(text + " is no whole number from 0");
+        fail(text + " is not a whole number of 0 or more");
     return static_cast<int>(value);
 }
 
@@ -124,14 +124,14 @@ void ScriptPlayer::start(const ScriptStep& step) {
     else if (step.word == "reference")
         state.wishes.open_reference = a[0];
     else if (step.word == "screenshot")
-        add([this, file = a[0]] { picture_ = file; });
+        add([this, file = a[0]] { screenshot_ = file; });
     else if (step.word == "print")
         outside_.print(a[0]);
     else if (step.word == "quit")
         state.wishes.quit = true;
     else
         start_pointer(step);
-    // What a step has changed is on show when the next begins.
+    // The effect of a step is visible before the next step begins.
     for (int i = 0; i < settling_frames && step.word != "wait"; ++i)
         add([] {});
 }
@@ -140,41 +140,41 @@ void ScriptPlayer::start_wait(const ScriptStep& step) {
     const std::string& what = step.arguments[0];
     const double amount = step.arguments.size() > 1 ? number(step.arguments[1]) : 0;
     const double began = now();
-    std::function<bool()> holds;
+    std::function<bool()> condition;
     if (what == "scene")
-        holds = [this] { return viewer_.state().scene && !viewer_.loading(); };
+        condition = [this] { return viewer_.state().scene && !viewer_.loading(); };
     else if (what == "spp")
-        holds = [this, amount] { return have_samples(static_cast<int>(amount)); };
+        condition = [this, amount] { return have_samples(static_cast<int>(amount)); };
     else if (what == "seconds")
-        holds = [began, amount] { return now() - began >= amount; };
+        condition = [began, amount] { return now() - began >= amount; };
     else if (what == "reference")
-        holds = [&state = viewer_.state()] {
+        condition = [&state = viewer_.state()] {
             return state.companions.reference && !state.reference_making.is_making();
         };
     else
-        fail("it is: wait scene | spp N | seconds S | reference");
+        fail("usage: wait scene | spp N | seconds S | reference");
     waiting_ = what != "seconds";
-    add_wait(holds);
+    add_wait(condition);
 }
 
 void ScriptPlayer::start_inspect(const ScriptStep& step) {
     const std::vector<std::string>& a = step.arguments;
     ViewerState& state = viewer_.state();
     state.inspect({state.active().slot, {whole(a[0]), whole(a[1])}, whole(a[2])});
-    add([] {}); // the viewer has begun
+    add([] {}); // one frame, in which the viewer starts the inspection
     add_wait([this] { return viewer_.state().scene && !viewer_.inspecting(); });
 }
 
-/// Waits until the condition holds; an error of the viewer, or too long a time, is one of the script.
-void ScriptPlayer::add_wait(const std::function<bool()>& holds) {
-    actions_.push_back([this, holds, began = now()] {
+/// Adds a wait for a condition. An error message of the viewer, or a timeout, becomes an error of the script.
+void ScriptPlayer::add_wait(const std::function<bool()>& condition) {
+    actions_.push_back([this, condition, began = now()] {
         for (const Message& message : viewer_.state().messages) {
             if (message.kind == Message::Kind::error)
                 fail(message.text);
         }
-        if (now() - began > patience)
-            fail("waited in vain");
-        return holds();
+        if (now() - began > wait_timeout)
+            fail("the wait has timed out");
+        return condition();
     });
 }
 
@@ -194,7 +194,7 @@ bool ScriptPlayer::have_samples(int spp) const {
 void ScriptPlayer::start_key(const ScriptStep& step) {
     const auto shortcut = shortcut_named(step.arguments[0]);
     if (!shortcut)
-        fail("no key is called " + step.arguments[0]);
+        fail("unknown key " + step.arguments[0]);
     Keyboard& keyboard = viewer_.keyboard();
     add([&keyboard, key = *shortcut, word = step.word] {
         if (key.character != 0 && word != "release")
@@ -216,11 +216,11 @@ void ScriptPlayer::start_frames(const ScriptStep& step) {
     const glm::vec2 middle = orbits ? point_on(pane) : glm::vec2(0);
     for (int i = 0; i <= count; ++i) {
         actions_.push_back([this, times, lag, orbits, middle, i, count] {
-            if (i > 0) // this frame's predecessor is measured
+            if (i > 0)
                 times->seconds.push_back(last_frame_);
             if (orbits) {
                 const ViewerState& state = viewer_.state();
-                lag->look(state.panes[state.active_pane], times->behind);
+                lag->record(state.panes[state.active_pane], times->behind);
                 mouse_ = middle + glm::vec2(i % 2 ? i : -i, 0) * (60.0f / static_cast<float>(count));
                 button_ = i > 0 && i < count;
             }
@@ -266,7 +266,7 @@ void ScriptPlayer::add(const std::function<void()>& once) {
 
 void ScriptPlayer::add_click(const std::function<glm::vec2()>& point) {
     add([this, point] { mouse_ = point(); });
-    add([] {}); // hovered first, as Dear ImGui wants it
+    add([] {}); // Dear ImGui must see the control hovered before the click
     add([this] { button_ = true; });
     add([] {});
     add([this] { button_ = false; });
@@ -279,13 +279,13 @@ void ScriptPlayer::add_drag(glm::vec2 from, glm::vec2 to, int frames) {
     add([] {});
     add([this] { button_ = true; });
     for (int i = 1; i <= frames; ++i)
-        add([this, from, to, share = static_cast<float>(i) / static_cast<float>(frames)] {
-            mouse_ = glm::mix(from, to, share);
+        add([this, from, to, fraction = static_cast<float>(i) / static_cast<float>(frames)] {
+            mouse_ = glm::mix(from, to, fraction);
         });
     add([this] { button_ = false; });
 }
 
-/// Points of the screen in a step's arguments, so many: "X Y" or "CONTROL" or "CONTROL@FX,FY" each.
+/// Returns `count` screen points from a step's arguments, each "X Y", "CONTROL" or "CONTROL@FX,FY".
 std::vector<glm::vec2> ScriptPlayer::points(const ScriptStep& step, std::size_t count) const {
     std::vector<glm::vec2> result;
     const std::vector<std::string>& a = step.arguments;
@@ -308,7 +308,7 @@ glm::vec2 ScriptPlayer::point_on(const std::string& control) const {
     const std::size_t at = control.find('@');
     const auto found = viewer_.controls().rects().find(control.substr(0, at));
     if (found == viewer_.controls().rects().end())
-        fail("no control is called " + control.substr(0, at) + " (--log-actions lists those there are)");
+        fail("unknown control " + control.substr(0, at) + " (--log-actions lists all controls)");
     float x = 0.5f, y = 0.5f;
     char rest = 0;
     if (at != std::string::npos && std::sscanf(control.c_str() + at, "@%f,%f%c", &x, &y, &rest) != 2)

@@ -8,7 +8,7 @@
 namespace tessera {
 
 namespace {
-constexpr int few_samples = 8; // per pixel, which a better size may discard
+constexpr int few_samples = 8; // per pixel; a better size may discard fewer (not tuned)
 } // namespace
 
 void SessionLink::take(ViewerState& state) {
@@ -20,30 +20,31 @@ void SessionLink::take(ViewerState& state) {
         pane.failure = session_.failure(pane.slot);
         pane.pass_share = session_.pass_share(pane.slot);
         pane.reconstructing = session_.reconstructing(pane.slot);
-        report_refused(state, i);
+        report_invalid_samples(state, i);
     }
     for (std::string& message : session_.take_messages())
         state.add_message(Message::Kind::error, std::move(message));
 }
 
-/// Reports the invalid samples of a request once. A preview has other pixels, so its samples are not reported.
-void SessionLink::report_refused(ViewerState& state, std::size_t pane) {
+/// Reports the invalid samples of each request once. Skips previews, because their pixels differ from the
+/// render's.
+void SessionLink::report_invalid_samples(ViewerState& state, std::size_t pane) {
     const Snapshot* snapshot = state.panes[pane].snapshot.get();
-    std::uint64_t& told = refused_told_[state.panes[pane].slot];
+    std::uint64_t& reported = reported_invalid_[state.panes[pane].slot];
     const Sent& sent = sent_of(state.panes[pane]);
-    if (snapshot == nullptr || snapshot->coarse() || snapshot->generation == told ||
+    if (snapshot == nullptr || snapshot->coarse() || snapshot->generation == reported ||
         snapshot->generation != sent.generation)
         return;
     if (snapshot->counters.first_refused.list().empty())
         return;
-    told = snapshot->generation;
+    reported = snapshot->generation;
     state.add_refused(std::string(paper_name(snapshot->settings.method)), snapshot->counters,
                       state.panes[pane].slot,
                       {sent.scene, snapshot->camera, sent.size, snapshot->settings, {}, snapshot->generation});
 }
 
 void SessionLink::send(ViewerState& state) {
-    send_running(state);
+    send_pace(state);
     latch_size(state);
     if (state.scene)
         send_panes(state);
@@ -61,7 +62,7 @@ void SessionLink::send(ViewerState& state) {
         session_.step();
 }
 
-/// Ends only the reconstructions that are shown as under way.
+/// Cancels the reconstructions that the viewer shows as under way.
 void SessionLink::give_up_reconstructions(ViewerState& state) {
     for (const PaneState& pane : state.panes) {
         if (!state.reconstructs_long(pane))
@@ -69,11 +70,11 @@ void SessionLink::give_up_reconstructions(ViewerState& state) {
         session_.give_up_reconstruction(pane.slot);
         state.add_message(Message::Kind::note, std::string(paper_name(pane.settings.render.method)) +
                                                    ": the reconstruction of pass " +
-                                                   std::to_string(pane.reconstructing->spp) + " was given up.");
+                                                   std::to_string(pane.reconstructing->spp) + " was cancelled.");
     }
 }
 
-void SessionLink::send_running(const ViewerState& state) {
+void SessionLink::send_pace(const ViewerState& state) {
     if (state.rendering.paused != sent_paused_)
         session_.set_paused(state.rendering.paused);
     if (!(state.rendering.pace == sent_pace_))
@@ -82,37 +83,37 @@ void SessionLink::send_running(const ViewerState& state) {
     sent_pace_ = state.rendering.pace;
 }
 
-/// Whether the pane has to restart its render, whatever its size.
-bool SessionLink::starts_anew(const ViewerState& state, const PaneState& pane) const {
+/// Whether the pane has to restart its render for a reason other than its size.
+bool SessionLink::needs_restart(const ViewerState& state, const PaneState& pane) const {
     const Sent& sent = sent_of(pane);
     return state.wishes.restart || sent.scene != state.scene || !(sent.camera == state.camera.camera()) ||
            !(sent.render == pane.settings.render);
 }
 
-/// A new size restarts every render. A size that only fits better therefore waits until no pane loses samples, and
-/// the pictures are scaled until then. If a panel opens or closes, any render counts as a loss, even a first pass
-/// under way. If the window or the number of panes changes, more than few_samples do. A size that the user chooses
-/// does not wait.
+/// Updates the rendered size. A new size restarts every render, so a size that only fits better waits until no
+/// pane would lose samples; until then the pictures are scaled. After a panel opens or closes, any render counts
+/// as a loss, even a first pass under way. After a change of the window or of the number of panes, few_samples or
+/// more count. A size that the user chooses applies at once.
 void SessionLink::latch_size(ViewerState& state) {
     const Arrangement arrangement{state.layout.window_size, state.panes.size()};
-    const bool is_by_panels = arrangement == latched_arrangement_;
-    const auto has_much_to_lose = [&](const PaneState& pane) {
-        if (starts_anew(state, pane))
+    const bool only_panels_changed = arrangement == latched_arrangement_;
+    const auto would_lose_samples = [&](const PaneState& pane) {
+        if (needs_restart(state, pane))
             return false;
         const Snapshot* s = pane.snapshot.get();
-        return is_by_panels || (s && s->generation == sent_of(pane).generation && s->spp >= few_samples);
+        return only_panels_changed || (s && s->generation == sent_of(pane).generation && s->spp >= few_samples);
     };
     if (state.rendering.size == latched_choice_ &&
-        std::any_of(state.panes.begin(), state.panes.end(), has_much_to_lose))
+        std::any_of(state.panes.begin(), state.panes.end(), would_lose_samples))
         return;
     state.rendering.latched_size = state.fitting_size();
     latched_choice_ = state.rendering.size;
     latched_arrangement_ = arrangement;
 }
 
-/// Returns the pane that renders for this one. Panes with equal render settings share one render, and each
-/// reconstructs it itself. A pane that renders these settings continues.
-std::size_t SessionLink::renders_for(const ViewerState& state, std::size_t pane) const {
+/// Returns the pane whose render this pane shows. Panes with equal render settings share one render, which each
+/// reconstructs itself. A pane that renders these settings already is preferred.
+std::size_t SessionLink::rendering_pane(const ViewerState& state, std::size_t pane) const {
     const RenderSettings& wanted = state.panes[pane].settings.render;
     std::size_t first = pane;
     for (std::size_t i = state.panes.size(); i-- > 0;)
@@ -126,8 +127,8 @@ std::size_t SessionLink::renders_for(const ViewerState& state, std::size_t pane)
     return first;
 }
 
-/// Swaps the slots and charts of a pane and of the pane in that slot.
-void SessionLink::give_slot(ViewerState& state, PaneState& pane, int slot) {
+/// Moves the pane to another slot. The pane in that slot gets this pane's slot; their charts are swapped.
+void SessionLink::swap_slots(ViewerState& state, PaneState& pane, int slot) {
     const int before = pane.slot;
     for (PaneState& other : state.panes)
         if (other.slot == slot)
@@ -139,15 +140,15 @@ void SessionLink::give_slot(ViewerState& state, PaneState& pane, int slot) {
 void SessionLink::send_panes(ViewerState& state) {
     std::vector<std::size_t> renders(state.panes.size());
     for (std::size_t i = 0; i < state.panes.size(); ++i)
-        renders[i] = renders_for(state, i);
-    // A pane that has rendered for others may have changed or be removed: one of the others takes over its slot
-    // with its samples.
+        renders[i] = rendering_pane(state, i);
+    // If a pane that rendered for others has changed or is removed, one of the others takes over its slot with
+    // the samples.
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         PaneState& pane = state.panes[i];
         const int followed = sent_of(pane).followed;
         if (renders[i] == i && followed >= 0 && sent_[followed].scene &&
             sent_[followed].render == pane.settings.render)
-            give_slot(state, pane, followed);
+            swap_slots(state, pane, followed);
     }
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         if (renders[i] == i)
@@ -167,7 +168,7 @@ void SessionLink::let_follow(PaneState& pane, const PaneState& other) {
     sent.reconstruction = pane.settings.reconstruction;
     sent.followed = other.slot;
     pane.generation = sent.generation;
-    refused_told_[pane.slot] = sent.generation; // the rendering pane reports
+    reported_invalid_[pane.slot] = sent.generation; // the rendering pane reports these
 }
 
 void SessionLink::send_pane(ViewerState& state, PaneState& pane) {
@@ -175,7 +176,7 @@ void SessionLink::send_pane(ViewerState& state, PaneState& pane) {
     if (!sent.scene || !(sent.reconstruction == pane.settings.reconstruction))
         session_.set_reconstruction(pane.slot, pane.settings.reconstruction);
     sent.reconstruction = pane.settings.reconstruction;
-    if (starts_anew(state, pane) || sent.size != state.request_size() || sent.followed >= 0) {
+    if (needs_restart(state, pane) || sent.size != state.request_size() || sent.followed >= 0) {
         sent.followed = -1;
         sent.scene = state.scene;
         sent.camera = state.camera.camera();

@@ -18,9 +18,9 @@ namespace tessera {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr float most_panel_share = 0.5f; // of the window's width
-constexpr int frames_until_still = 3;    // Dear ImGui fits tables a frame or two later
-constexpr float longest_step = 0.1f;     // seconds by which the slow motion advances in one frame at the most
+constexpr float max_panel_fraction = 0.5f; // of the window's width
+constexpr int frames_to_settle = 3;        // Dear ImGui fits tables with a delay of one or two frames
+constexpr float longest_step = 0.1f;       // maximum advance of the slow motion per frame, seconds
 
 } // namespace
 
@@ -47,12 +47,11 @@ Viewer::Viewer(Session& session, ViewerOptions options)
 
 Viewer::~Viewer() {
     saver_.finish();
-    remember(); // last: the saver stores preferences as well
+    remember(); // last, because the saver stores preferences as well
 }
 
 void Viewer::draw_frame() {
-    frames_due_ =
-        std::exchange(state_.wishes.redraw, false) ? frames_until_still - 1 : std::max(frames_due_ - 1, 0);
+    frames_due_ = std::exchange(state_.wishes.redraw, false) ? frames_to_settle - 1 : std::max(frames_due_ - 1, 0);
     if (scenes_.take(state_))
         memory_.add_scene(scenes_.shown().source.file, state_, saver_);
     link_.take(state_);
@@ -64,7 +63,7 @@ void Viewer::draw_frame() {
     note_history();
     link_.send(state_);
     work_.update(state_, std::min(ImGui::GetIO().DeltaTime, longest_step), options_.threads, options_.wake);
-    saver_.fulfil_charts(state_); // after the work, which tells whether histograms are due
+    saver_.fulfil_charts(state_); // after work_, which sets charts.histograms_due
     log_changes();
 }
 
@@ -75,7 +74,7 @@ void Viewer::draw_panels() {
         state_.layout.window.size = state_.layout.window_size;
     const float top = draw_menu_bar(controls_, state_);
     const float panel_width =
-        std::floor(std::min(ImGui::GetFontSize() * state_.layout.panel_width, display.x * most_panel_share));
+        std::floor(std::min(ImGui::GetFontSize() * state_.layout.panel_width, display.x * max_panel_fraction));
     ScreenRect pictures{{0, top}, {display.x, std::max(display.y, top + 1)}};
     if (state_.layout.show_panel || state_.layout.show_statistics || state_.layout.show_charts) {
         pictures.max.x -= panel_width;
@@ -90,7 +89,7 @@ void Viewer::draw_panels() {
     overlays_.draw(pictures, controls_, state_, options_, scenes_.under_way(), memory_.thumbnails_stored());
 }
 
-/// Draws settings, statistics and charts below each other. All scroll, and share the room evenly.
+/// Draws settings, statistics and charts below each other, with equal heights.
 void Viewer::draw_side(const ScreenRect& where) {
     const int panels = state_.layout.show_panel + state_.layout.show_statistics + state_.layout.show_charts;
     int drawn = 0;
@@ -111,18 +110,18 @@ void Viewer::draw_side(const ScreenRect& where) {
         draw_charts_panel(next(), controls_, state_);
 }
 
-/// The panels have at most half of the room together.
+/// Returns heights that together are at most half of `room`.
 Viewer::BottomHeights Viewer::bottom_heights(float room) const {
     const float font = ImGui::GetFontSize(), least = font * 11;
     const float large = std::max(least, std::min(font * 17, room * 0.36f));
-    const bool looks_inside = state_.slow_motion.active || state_.inspector.active;
-    const float messages = state_.layout.show_messages ? looks_inside ? font * 7 : least : 0;
-    const float inside = looks_inside ? large : 0;
-    const float share = std::min(1.0f, room / 2 / std::max(messages + inside, 1.0f));
-    return {std::floor(messages * share), std::floor(inside * share)};
+    const bool shows_inside = state_.slow_motion.active || state_.inspector.active;
+    const float messages = state_.layout.show_messages ? shows_inside ? font * 7 : least : 0;
+    const float inside = shows_inside ? large : 0;
+    const float scale = std::min(1.0f, room / 2 / std::max(messages + inside, 1.0f));
+    return {std::floor(messages * scale), std::floor(inside * scale)};
 }
 
-/// Messages lie above path inspector or slow motion.
+/// Draws the messages, and below them the path inspector or the slow motion.
 void Viewer::draw_bottom(const ScreenRect& where, const BottomHeights& heights) {
     const float middle = where.min.y + heights.messages;
     const ScreenRect inside{{where.min.x, middle}, where.max};
@@ -134,7 +133,7 @@ void Viewer::draw_bottom(const ScreenRect& where, const BottomHeights& heights) 
         draw_inspector_panel(inside, controls_, state_);
 }
 
-/// Notes no point of the history while a drag, a held key or typing goes on: each is one step.
+/// Updates the undo history. A drag, a held key or a typed text becomes one step when it ends.
 void Viewer::note_history() {
     if (state_.scene)
         state_.history.note(state_, flying_ || ImGui::IsAnyMouseDown() || ImGui::GetIO().WantTextInput);
@@ -148,7 +147,7 @@ double Viewer::next_frame_in() const {
     const bool renders_long = std::any_of(state_.panes.begin(), state_.panes.end(),
                                           [](const PaneState& p) { return is_in_long_first_pass(p); });
     if (!state_.layout.toast.text.empty())
-        return 0.2; // disappears by itself
+        return 0.2; // the toast disappears after a time
     if (loading() || controls_.tooltip_pending() || reconstructs || renders_long)
         return 0.1;
     return ImGui::GetIO().WantTextInput ? 0.2 : never; // a blinking cursor

@@ -20,29 +20,30 @@
 
 namespace tessera {
 
-/// The viewer without its window, on a session of most_panes panes. Owns the state, draws a frame of it, and lets
-/// its parts fulfil the wishes in it. To be used from one thread, with an OpenGL context and Dear ImGui's context
+/// The viewer without its window. Owns the state, draws frames and fulfils the wishes in the state. The session
+/// must have most_panes panes. To be used from one thread, with an OpenGL context and Dear ImGui's context
 /// current.
 class Viewer {
 public:
     Viewer(Session& session, ViewerOptions options);
-    ~Viewer(); ///< waits for what is being saved, and calls remember()
+    ~Viewer(); ///< waits for files that are being saved, and calls remember()
 
-    /// Loads a scene in the background and cancels the load under way; the scene on show stays until then.
-    /// @param source  file of the scene; without a file it is in none
+    /// Loads a scene in the background, and cancels the load under way. The scene on show stays until the new one
+    /// is complete.
+    /// @param source  file of the scene; without a file, the scene is not in a file
     void load(std::string name, SceneLoader loader, SceneSource source = {});
 
-    /// Takes files dropped on the window: the first scene, the first EXR file as the reference, and the first
-    /// settings, which apply once the scene is on show.
+    /// Opens files dropped on the window: the first scene, the first EXR file as the reference, and the first
+    /// settings file, which applies once the scene is on show.
     void drop(const std::vector<std::filesystem::path>& files);
 
-    /// Stores at once what the next run begins with: the layout and the recent scenes.
+    /// Stores the layout and the recent scenes for the next run at once.
     void remember() const { memory_.store(state_); }
 
-    /// Draws one frame, between Gui's begin and end. Takes in what is new, then sends changes to the session.
+    /// Draws one frame, between Gui's begin and end. Takes new results, then sends changes to the session.
     void draw_frame();
 
-    /// Returns the seconds until the next frame is due although nothing happens; 0: at once; infinity: none.
+    /// Returns the seconds until the next frame is due without any event; 0: at once; infinity: never.
     double next_frame_in() const;
 
     ViewerState& state() { return state_; }
@@ -55,10 +56,10 @@ public:
     /// Whether the contents of the path inspector are incomplete.
     bool inspecting() const { return work_.inspecting(); }
 
-    /// Whether every pane shows `spp` samples per pixel of the present request, and their reconstruction.
+    /// Whether every pane shows at least `spp` samples per pixel of its current request, reconstructed.
     bool settled(int spp) const;
 
-    /// Whether the last frame showed everything that had come by its end.
+    /// Whether the last frame showed all results that had arrived by its end.
     bool all_drawn() const { return !state_.wishes.redraw && frames_due_ == 0; }
 
 private:
@@ -89,8 +90,8 @@ private:
     ViewerMemory memory_;
     ChangeLog change_log_;
     bool flying_ = false; // a key moves the camera
-    int frames_due_ = 0;  // after this one, although nothing happens
-    BackgroundWork work_; // last: its destructor waits for a pass
+    int frames_due_ = 0;  // further frames to draw without any event
+    BackgroundWork work_; // last, because its destructor waits for a pass
 };
 
 } // namespace tessera

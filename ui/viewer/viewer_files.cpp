@@ -14,7 +14,7 @@ namespace tessera {
 
 namespace {
 
-/// Returns the first file with the extension, in either case; null: there is none.
+/// Returns the first file with the extension in upper or lower case; null: there is none.
 const std::filesystem::path* find_file(const std::vector<std::filesystem::path>& files, const char* extension) {
     const auto found = std::find_if(files.begin(), files.end(), [&](const std::filesystem::path& file) {
         return has_extension(file, extension);
@@ -30,7 +30,7 @@ void Viewer::load(std::string name, SceneLoader loader, SceneSource source) {
 
 void Viewer::open(const std::filesystem::path& file) {
     scenes_.load(options_.open(file));
-    state_.layout.show_gallery = false; // it would hide the scene
+    state_.layout.show_gallery = false; // the gallery would hide the scene
 }
 
 void Viewer::drop(const std::vector<std::filesystem::path>& files) {
@@ -45,15 +45,14 @@ void Viewer::drop(const std::vector<std::filesystem::path>& files) {
         state_.wishes.open_settings = settings->string();
     if (!files.empty() && options_.open && !scene && !reference && !settings)
         state_.add_message(Message::Kind::error, files.front().string() +
-                                                     ": this is no scene; what can be dropped here is a Mitsuba "
-                                                     "scene, an .xml file, a reference, an .exr file, or "
-                                                     "settings, a .json file");
+                                                     ": the file type is unknown. Drop a Mitsuba scene (.xml), a "
+                                                     "reference (.exr) or settings (.json).");
 }
 
 void Viewer::load_settings(const std::filesystem::path& file) {
     try {
         apply_settings_file(state_, file);
-        state_.tell("The settings are now those of " + file.string());
+        state_.tell("Loaded the settings " + file.string());
     } catch (const std::exception& e) {
         state_.add_message(Message::Kind::error, message_of(e));
     }
@@ -71,14 +70,14 @@ void Viewer::fulfil_wishes() {
         open(file);
     if (std::exchange(wishes.open_built_in, false) && options_.open)
         open({});
-    // Settings wait for a scene under way, whose own camera and depth would replace theirs.
+    // Settings wait until a scene load has ended, because the scene replaces their camera and depth.
     if (!wishes.open_settings.empty() && !loading())
         load_settings(std::exchange(wishes.open_settings, {}));
     overlays_.follow_jobs(state_, options_);
     saver_.fulfil(state_, pictures_, scenes_.shown().source);
     if (std::exchange(wishes.copy_camera, false) && state_.scene) {
         ImGui::SetClipboardText(camera_xml(state_.camera.camera()).c_str());
-        state_.tell("The camera is on the clipboard, for a <sensor> of a Mitsuba scene.");
+        state_.tell("Copied the camera to the clipboard, as XML for a <sensor> of a Mitsuba scene.");
     }
 }
 

@@ -12,14 +12,14 @@ namespace tessera {
 
 namespace {
 
-constexpr float longest_step = 0.1f; // seconds that a held key moves in one frame at the most
+constexpr float longest_step = 0.1f; // maximum camera motion of a held key per frame, seconds
 
-/// Whether a list of choices or a menu is open; also a dialog that is modal.
+/// Whether a list of choices, a menu or a modal dialog is open.
 bool has_open_list() {
     return ImGui::IsPopupOpen(static_cast<const char*>(nullptr), ImGuiPopupFlags_AnyPopup);
 }
 
-/// Takes what was typed to the open list.
+/// Sends typed keys to the open list.
 void step_in_list(const std::vector<Shortcut>& typed) {
     constexpr std::pair<Key, ListStep> steps[] = {{Key::left, ListStep::left},  {Key::right, ListStep::right},
                                                   {Key::up, ListStep::up},      {Key::down, ListStep::down},
@@ -30,7 +30,7 @@ void step_in_list(const std::vector<Shortcut>& typed) {
                 send_list_step(step);
 }
 
-/// Takes to the list of commands what was typed for it.
+/// Moves the command palette's selection by typed arrow keys, and accepts it by Enter.
 void steer_palette(const std::vector<Shortcut>& typed, Layout& layout) {
     for (const Shortcut& shortcut : typed) {
         layout.palette_steps += (shortcut == Shortcut{Key::down}) - (shortcut == Shortcut{Key::up});
@@ -43,7 +43,7 @@ void steer_palette(const std::vector<Shortcut>& typed, Layout& layout) {
 void Viewer::read_keyboard() {
     const ImGuiIO& io = ImGui::GetIO();
     std::vector<Shortcut> typed = keyboard_.take();
-    // Nothing behind a list, a menu or a dialog may be done from it; Esc closes it, and Ctrl+Q the program.
+    // A list, a menu or a dialog blocks all shortcuts except Ctrl+Q, and Esc in the file dialog.
     const bool in_list = has_open_list() && !state_.layout.choosing;
     if (in_list)
         step_in_list(typed);

@@ -24,38 +24,39 @@ void ViewerMemory::restore(ViewerState& state, int asked_panes) {
         state.set_pane_count(stored_.panes);
 }
 
-/// Takes the file's note on itself, and the scenes that other viewers have opened.
+/// Reports the note on the file, and takes over the scenes that other viewers have opened.
 void ViewerMemory::take(const KeptPreferences& kept, ViewerState& state) {
-    if (!kept.note.empty() && kept.note != told_)
+    if (!kept.note.empty() && kept.note != reported_note_)
         state.add_message(Message::Kind::note, kept.note);
-    told_ = kept.note;
+    reported_note_ = kept.note;
     stored_.recent_scenes = kept.preferences.recent_scenes;
-    state.scene_info.recent = current(state).recent_scenes; // with scenes opened since the file was written
+    state.scene_info.recent = current(state).recent_scenes; // and the scenes that this run has opened
     state.wishes.redraw = true;
 }
 
 Preferences ViewerMemory::current(const ViewerState& state) const {
-    Preferences now{state.layout, 0, stored_.recent_scenes};
-    if (state.layout.window_size.x == 0) // nothing has been drawn
-        now.window = stored_.window;
+    Preferences preferences{state.layout, 0, stored_.recent_scenes};
+    if (state.layout.window_size.x == 0) // no frame has been drawn
+        preferences.window = stored_.window;
     for (const std::string& scene : opened_)
-        now.add_recent(scene);
+        preferences.add_recent(scene);
     const int panes = static_cast<int>(state.panes.size());
-    now.panes = panes == asked_panes_ && stored_.panes > 0 ? stored_.panes : panes;
-    return now;
+    preferences.panes = panes == asked_panes_ && stored_.panes > 0 ? stored_.panes : panes;
+    return preferences;
 }
 
 void ViewerMemory::add_scene(const std::filesystem::path& scene, ViewerState& state, Saver& saver) {
-    std::error_code gone; // the current folder: then the file's place is unknown
-    const std::filesystem::path whole = std::filesystem::absolute(scene, gone);
-    if (!scene.empty() && !gone)
-        opened_.push_back(whole);
+    std::error_code failed; // there is no current folder: the file's absolute path is unknown
+    const std::filesystem::path full = std::filesystem::absolute(scene, failed);
+    if (!scene.empty() && !failed)
+        opened_.push_back(full);
     if (file_.empty())
         return;
-    const Preferences now = current(state);
-    state.scene_info.recent = now.recent_scenes;
-    saver.save([this, &state, file = file_, now, opened = opened_] {
-        return Saved("", [this, &state, kept = store_preferences(file, now, opened)] { take(kept, state); });
+    const Preferences preferences = current(state);
+    state.scene_info.recent = preferences.recent_scenes;
+    saver.save([this, &state, file = file_, preferences, opened = opened_] {
+        return Saved("",
+                     [this, &state, kept = store_preferences(file, preferences, opened)] { take(kept, state); });
     });
 }
 
@@ -63,32 +64,32 @@ void ViewerMemory::store(const ViewerState& state) const {
     if (file_.empty())
         return;
     const KeptPreferences kept = store_preferences(file_, current(state), opened_);
-    if (!kept.note.empty() && kept.note != told_) // nobody reads messages any more
+    if (!kept.note.empty() && kept.note != reported_note_) // messages are not shown at exit
         std::fprintf(stderr, "%s\n", kept.note.c_str());
 }
 
 void ViewerMemory::keep_thumbnail(const ViewerState& state, const SceneSource& shown, Saver& saver) {
-    constexpr int enough_spp = 16;
-    constexpr double enough_seconds = 5; // of a scene that renders slowly
-    if (file_.empty() || opened_.empty() || shown.file.empty() || pictured_ == state.scene_info.shown)
+    constexpr int min_spp = 16;
+    constexpr double min_seconds = 5; // for a scene that renders slowly
+    if (file_.empty() || opened_.empty() || shown.file.empty() || thumbnail_scene_ == state.scene_info.shown)
         return;
-    const auto shows_much = [](const PaneState& pane) {
+    const auto is_presentable = [](const PaneState& pane) {
         return pane.snapshot && !pane.snapshot->coarse() &&
-               (pane.snapshot->spp >= enough_spp || pane.snapshot->seconds >= enough_seconds);
+               (pane.snapshot->spp >= min_spp || pane.snapshot->seconds >= min_seconds);
     };
-    const auto pane = std::find_if(state.panes.rbegin(), state.panes.rend(), shows_much);
+    const auto pane = std::find_if(state.panes.rbegin(), state.panes.rend(), is_presentable);
     if (pane == state.panes.rend() || pane->snapshot->scene.lock() != state.scene)
         return;
     RgbImage scratch;
     const RgbImage& image = picture(*pane->snapshot, Buffer::reconstruction, scratch);
     if (image.empty())
         return;
-    pictured_ = state.scene_info.shown;
+    thumbnail_scene_ = state.scene_info.shown;
     saver.save([this, file = file_, scene = opened_.back(), image] {
         std::vector<float> luminances;
         for (const Rgb& pixel : image)
             luminances.push_back(luminance(pixel));
-        try { // a full disk is not reported
+        try { // a failure, such as a full disk, is not reported
             store_thumbnail(file, scene, thumbnail_of(image, exposure_of(std::move(luminances)).value_or(0)));
         } catch (const std::exception&) {
         }

@@ -12,22 +12,24 @@
 
 namespace tessera {
 
-/// Keeps what the viewer remembers from one run to the next, in a file that other viewers write as well: the
-/// layout, the number of panes, the recent scenes and their thumbnails. Without a file it does nothing.
+/// Stores the layout, the number of panes, the recent scenes and their thumbnails for the next run. Other viewers
+/// write the same file. Without a file, nothing is stored.
 class ViewerMemory {
 public:
     explicit ViewerMemory(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// Puts what the last run has stored into the state.
-    /// @param asked_panes  number of panes of the command line, which is for this run only; 0: the stored one
+    /// Puts the stored preferences into the state.
+    /// @param asked_panes  number of panes that the command line sets for this run only; 0: the stored number
     void restore(ViewerState& state, int asked_panes);
 
-    /// Puts a scene before the recent ones, and stores in the background: the disk can be slow.
+    /// Adds a scene to the recent ones, and stores the preferences in the background, because the disk can be
+    /// slow.
     void add_scene(const std::filesystem::path& scene, ViewerState& state, Saver& saver);
-    /// Stores at once.
+    /// Stores the preferences at once.
     void store(const ViewerState& state) const;
 
-    /// Stores a picture of the scene on show for the gallery, once, in the background, when it has enough samples.
+    /// Stores a thumbnail of the scene on show for the gallery, in the background, once per scene and when a pane
+    /// has enough samples.
     void keep_thumbnail(const ViewerState& state, const SceneSource& shown, Saver& saver);
     int thumbnails_stored() const { return thumbnails_stored_; } ///< in this run
 
@@ -36,11 +38,11 @@ private:
     void take(const KeptPreferences& kept, ViewerState& state);
 
     std::filesystem::path file_;
-    Preferences stored_;              // as last read from the file
-    std::string told_;                // last note on the file
+    Preferences stored_;              // last read from the file
+    std::string reported_note_;       // last reported note on the file
     int asked_panes_ = 0;             // see restore()
-    std::vector<std::string> opened_; // scenes of this run, the last one last
-    int pictured_ = 0;                // ViewerState::scenes_shown of the newest thumbnail
+    std::vector<std::string> opened_; // scenes of this run, the newest last
+    int thumbnail_scene_ = 0;         // SceneInfo::shown of the newest thumbnail
     int thumbnails_stored_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// How numbers become colours on a canvas.
+// Colours of values on a canvas.
 
 #include "tests/ui/drawing/canvas_fixture.h"
 #include "ui/gl/tone.h"
@@ -15,7 +15,7 @@ Colour display(glm::vec3 c) {
             static_cast<int>(std::lround(c.b * 255))};
 }
 
-TEST_F(CanvasTest, GradientsShowTheirSignByHue) {
+TEST_F(CanvasTest, HueShowsTheSignOfGradients) {
     RgbImage image(3, 1);
     image(0, 0) = Rgb(0.25f);
     image(1, 0) = Rgb(0);
@@ -23,7 +23,7 @@ TEST_F(CanvasTest, GradientsShowTheirSignByHue) {
     image_.show(image);
     CanvasView view = filling({9, 3});
     view.colour_map = ColourMap::signed_difference;
-    view.tone.exposure = 2; // now at full strength
+    view.tone.exposure = 2; // at full strength
     canvas_.draw(shader_, image_, view);
     expect_colour(1, 1, {255, 168, 51});
     expect_colour(4, 1, {26, 26, 28});
@@ -37,7 +37,7 @@ TEST_F(CanvasTest, GradientsShowTheirSignByHue) {
     EXPECT_LT(plus[0], 200);
 }
 
-TEST_F(CanvasTest, FalseColoursReachFromZeroToTheTop) {
+TEST_F(CanvasTest, FalseColoursSpanTheirRange) {
     RgbImage image(5, 1, Rgb(0));
     image(1, 0) = Rgb(3);
     image(2, 0) = Rgb(6);
@@ -47,7 +47,7 @@ TEST_F(CanvasTest, FalseColoursReachFromZeroToTheTop) {
     CanvasView view = filling({15, 3});
     view.colour_map = ColourMap::false_colour;
     view.range.high = 6;
-    for (float stops : {0.0f, 3.0f}) { // exposure is for light
+    for (float stops : {0.0f, 3.0f}) { // exposure applies to radiance only
         view.tone.exposure = stops;
         canvas_.draw(shader_, image_, view);
         expect_colour(1, 1, display(false_colours.front()));
@@ -58,7 +58,7 @@ TEST_F(CanvasTest, FalseColoursReachFromZeroToTheTop) {
     }
 }
 
-TEST_F(CanvasTest, NegativeRadianceIsMarkedIfWished) {
+TEST_F(CanvasTest, NegativeRadianceIsMarkedOnRequest) {
     RgbImage image(2, 1, Rgb(0.5f));
     image(0, 0) = {0.5f, -0.01f, 0.5f};
     image_.show(image);
@@ -69,7 +69,7 @@ TEST_F(CanvasTest, NegativeRadianceIsMarkedIfWished) {
     canvas_.draw(shader_, image_, view);
     expect_colour(1, 1, {38, 64, 255});
     expect_colour(4, 1, {srgb(0.5f), srgb(0.5f), srgb(0.5f)});
-    view.colour_map = ColourMap::signed_difference; // there it means nothing odd
+    view.colour_map = ColourMap::signed_difference; // negative values are valid there
     canvas_.draw(shader_, image_, view);
     EXPECT_NE(pixel(1, 1), (Colour{38, 64, 255}));
 }
@@ -84,17 +84,17 @@ TEST_F(CanvasTest, ToneCurves) {
     canvas_.draw(shader_, image_, view);
     const auto filmic = [](float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); };
     expect_colour(1, 1, {srgb(filmic(0.4f)), srgb(filmic(1.5f)), 255}, 2);
-    EXPECT_LT(pixel(1, 1)[1], 255); // above 1 there is still something to see
+    EXPECT_LT(pixel(1, 1)[1], 255); // values above 1 are not clipped to white
 }
 
-TEST_F(CanvasTest, ColoursOfTheImagesOwnStayAsTheyAre) {
+TEST_F(CanvasTest, DisplayColoursStayUnchanged) {
     RgbImage image(2, 1, Rgb(0.25f, 0.5f, 1));
     image(1, 0) = Rgb(2, nan, 0);
     image_.show(image);
     CanvasView view = filling({6, 3});
     view.colour_map = ColourMap::own;
     view.mark_negative = true;
-    for (float stops : {0.0f, 3.0f}) { // neither exposure nor tone is for display colours
+    for (float stops : {0.0f, 3.0f}) { // exposure and tone do not apply to display colours
         view.tone = {Tone::Curve::filmic, stops};
         canvas_.draw(shader_, image_, view);
         expect_colour(1, 1, {64, 128, 255});
@@ -123,7 +123,7 @@ TEST_F(CanvasTest, DifferencesOfTwoImages) {
     image(1, 0) = Rgb(0.25f);
     image_.show(image);
     ImageTexture other;
-    other.show(RgbImage(1, 1, Rgb(0.5f))); // of another size: stretched
+    other.show(RgbImage(1, 1, Rgb(0.5f))); // another size, which is stretched
     CanvasView view = filling({6, 3});
     view.colour_map = ColourMap::signed_difference;
     view.tone.exposure = 2;
@@ -133,11 +133,11 @@ TEST_F(CanvasTest, DifferencesOfTwoImages) {
     canvas_.draw(shader_, image_, view);
     expect_colour(4, 1, {255, 168, 51});
     other.show(image);
-    canvas_.draw(shader_, image_, view, &other); // a new image is drawn anew
+    canvas_.draw(shader_, image_, view, &other); // a new image is redrawn
     expect_colour(4, 1, {26, 26, 28});
 }
 
-TEST(FalseColours, GreaterIsBrighter) {
+TEST(FalseColours, LargerValuesAreBrighter) {
     const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
     float before = -1;
     for (const glm::vec3& c : false_colours) {

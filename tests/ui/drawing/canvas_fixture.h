@@ -28,7 +28,7 @@ protected:
     ImageTexture image_;
     Canvas canvas_;
 
-    /// The image over the whole of a pane.
+    /// Returns a view in which the image fills the pane.
     CanvasView filling(glm::ivec2 pane_size) const { return {pane_size, {0, 0}, glm::vec2(pane_size)}; }
 
     ScreenPixels pixels() const {

@@ -8,9 +8,9 @@
 namespace tessera {
 namespace {
 
-/// Whether a program that there is makes use of the uniform.
+/// Whether any program of the context uses the uniform.
 bool is_used(const char* uniform) {
-    constexpr GLuint names = 64; // of a fresh context
+    constexpr GLuint names = 64; // enough for a fresh context
     for (GLuint name = 1; name < names; ++name)
         if (glIsProgram(name) != GL_FALSE && glGetUniformLocation(name, uniform) >= 0)
             return true;
@@ -32,7 +32,7 @@ TEST_F(CanvasTest, RadianceIsExposedAndEncodedAsSrgb) {
     }
 }
 
-TEST_F(CanvasTest, ImageStandsUprightAndUnmirrored) {
+TEST_F(CanvasTest, ImageIsUprightAndNotMirrored) {
     RgbImage image(2, 2);
     image(0, 0) = {1, 0, 0};
     image(1, 0) = {0, 1, 0};
@@ -65,13 +65,13 @@ TEST_F(CanvasTest, NanAndInfinityAreMarkedInEveryView) {
     expect_colour(0, 1, magenta, 0);
 }
 
-TEST_F(CanvasTest, ShrinkingAveragesAndLosesNoNan) {
+TEST_F(CanvasTest, ShrinkingAveragesAndKeepsNanMarks) {
     RgbImage image(8, 8, Rgb(0.5f));
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 4; ++x)
             image(x, y) = Rgb((x + y) % 2 ? 1.0f : 0.0f);
     }
-    image(6, 1) = Rgb(1000); // one bright pixel counts as white, no more
+    image(6, 1) = Rgb(1000); // a bright pixel counts as white at most
     image(6, 6) = Rgb(nan);
     image_.show(image);
     canvas_.draw(shader_, image_, filling({2, 2}));
@@ -81,19 +81,19 @@ TEST_F(CanvasTest, ShrinkingAveragesAndLosesNoNan) {
     expect_colour(1, 1, magenta, 0);
 }
 
-TEST_F(CanvasTest, ShrinkingFarLosesNoMark) {
+TEST_F(CanvasTest, StrongShrinkingKeepsMarks) {
     for (int place = 0; place < 60; place += 7) {
         RgbImage image(120, 60, Rgb(0.5f));
         image(place, 59 - place) = Rgb(nan);
         image(60 + place, place) = {0, -infinity, 0};
         image_.show(image);
-        canvas_.draw(shader_, image_, filling({2, 1})); // sixty pixels to one
+        canvas_.draw(shader_, image_, filling({2, 1})); // 60 pixels become one
         expect_colour(0, 0, magenta, 0);
         expect_colour(1, 0, cyan, 0);
     }
 }
 
-TEST_F(CanvasTest, ADifferenceToNothingIsNothing) {
+TEST_F(CanvasTest, ADifferenceToAnEmptyImageIsEmpty) {
     ImageTexture nothing;
     image_.show(RgbImage(4, 4, Rgb(1)));
     CanvasView view = filling({4, 4});
@@ -105,7 +105,7 @@ TEST_F(CanvasTest, ADifferenceToNothingIsNothing) {
     EXPECT_GT(pixel(2, 2)[0], 100);
 }
 
-TEST_F(CanvasTest, EnlargedPixelsAreSquaresUnlessCoarse) {
+TEST_F(CanvasTest, EnlargedPixelsAreSquaresExceptInPreviews) {
     RgbImage image(2, 1);
     image(1, 0) = Rgb(1);
     image_.show(image);
@@ -132,21 +132,22 @@ TEST_F(CanvasTest, BackgroundSurroundsTheImage) {
     EXPECT_EQ(pixel(8, 7), background);
 }
 
-TEST_F(CanvasTest, ACoarseImageLiesWhereASharpOneDoes) {
+TEST_F(CanvasTest, APreviewCoversTheSameArea) {
     RgbImage image(3, 2, Rgb(1));
     image(2, 1) = Rgb(0.5f);
     image_.show(image);
-    for (const glm::vec2 origin : {glm::vec2(5, 3), glm::vec2(-4, -2), glm::vec2(14, 6)}) { // beyond borders, too
+    for (const glm::vec2 origin :
+         {glm::vec2(5, 3), glm::vec2(-4, -2), glm::vec2(14, 6)}) { // also beyond the borders
         CanvasView view{{20, 10}, origin, {9, 6}};
         const ScreenPixels sharp = drawn(view);
         view.coarse = true;
         const ScreenPixels coarse = drawn(view);
         for (std::size_t i = 0; i < sharp.rgb.size(); ++i)
-            EXPECT_NEAR(sharp.rgb[i], coarse.rgb[i], 70) << i; // 255 and 188 are mixed, the background is not
+            EXPECT_NEAR(sharp.rgb[i], coarse.rgb[i], 70) << i; // interpolates 255 and 188, but not the background
     }
 }
 
-TEST_F(CanvasTest, DrawsAgainOnlyWhenSomethingChanged) {
+TEST_F(CanvasTest, RedrawsOnlyAfterChanges) {
     image_.show(RgbImage(2, 2, Rgb(1)));
     CanvasView view = filling({8, 8});
     canvas_.draw(shader_, image_, view);
@@ -160,8 +161,8 @@ TEST_F(CanvasTest, DrawsAgainOnlyWhenSomethingChanged) {
     EXPECT_EQ(canvas_.drawings(), 3);
 }
 
-// Software renderers go through all that a program holds at every pixel.
-TEST_F(CanvasTest, ProgramsHoldOnlyWhatTheirViewsNeed) {
+// Software renderers execute all code of a program at every pixel.
+TEST_F(CanvasTest, ProgramsContainOnlyWhatTheirViewsNeed) {
     image_.show(RgbImage(2, 2, Rgb(1)));
     CanvasView view = filling({8, 8});
     canvas_.draw(shader_, image_, view);
@@ -187,7 +188,7 @@ TEST_F(CanvasTest, EmptyImagesAndPanesAreHarmless) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(CanvasTest, ImagesOfChangingSizeReplaceEachOther) {
+TEST_F(CanvasTest, ImagesOfDifferentSizesReplaceEachOther) {
     for (int size : {5, 1, 64, 3}) {
         image_.show(RgbImage(size, size, Rgb(0.2f)));
         canvas_.draw(shader_, image_, filling({size, size}));
@@ -204,7 +205,7 @@ RgbImage two_halves(int width, int height) {
     return image;
 }
 
-TEST_F(CanvasTest, WhatIsLargerThanTexturesCanBeIsShownReduced) {
+TEST_F(CanvasTest, ImagesLargerThanTexturesAreReduced) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     image_.show(two_halves(most + 10, 2));
@@ -214,16 +215,16 @@ TEST_F(CanvasTest, WhatIsLargerThanTexturesCanBeIsShownReduced) {
     EXPECT_LE(image_.texture().size().x, most);
 }
 
-TEST_F(CanvasTest, AReducedPixelIsTheMeanOfThoseInItsPlace) {
+TEST_F(CanvasTest, AReducedPixelIsTheMeanOfItsPixels) {
     RgbImage image = two_halves(40, 30);
     image(39, 29) = Rgb(nan);
     image_.show(image, 16);
     EXPECT_EQ(image_.texture().size(), glm::ivec2(14, 10));
     drawn(filling({140, 100}));
     expect_colour(5, 5, {255, 0, 0});
-    expect_colour(65, 50, {srgb(2 / 3.0f), srgb(1 / 3.0f), 0}); // columns 18 and 19, and 20
+    expect_colour(65, 50, {srgb(2 / 3.0f), srgb(1 / 3.0f), 0}); // columns 18, 19 and 20
     expect_colour(135, 5, {0, 255, 0});
-    expect_colour(135, 95, magenta); // an odd pixel is not lost
+    expect_colour(135, 95, magenta); // the last, odd pixel is kept
     image_.show(two_halves(40, 30), 40);
     EXPECT_EQ(image_.texture().size(), glm::ivec2(40, 30));
 }

@@ -1,4 +1,4 @@
-// Charts: efficiency, what they lack, what is saved of them, and how they are drawn large.
+// Charts: efficiency, references, saved files, and large charts.
 
 #include "tests/ui/drawing/charts_fixture.h"
 #include "tests/ui/viewer/current_folder.h"
@@ -20,7 +20,7 @@
 namespace tessera::test {
 namespace {
 
-TEST_F(Charts, EfficiencyIsTheInverseOfErrorAndTime) {
+TEST_F(Charts, EfficiencyIsTheInverseOfErrorTimesSeconds) {
     set_reference(Rgb(0.3f));
     type(Key::h);
     choose("charts.kind", "efficiency");
@@ -34,7 +34,7 @@ TEST_F(Charts, EfficiencyIsTheInverseOfErrorAndTime) {
     save("charts-efficiency.png");
 }
 
-TEST_F(Charts, WithoutAReferenceOneCanBeOpenedOrMade) {
+TEST_F(Charts, WithoutAReferenceThereAreButtonsToOpenOrMakeOne) {
     type(Key::h);
     frames(2);
     click("charts.make_reference");
@@ -44,7 +44,7 @@ TEST_F(Charts, WithoutAReferenceOneCanBeOpenedOrMade) {
     EXPECT_EQ(state().layout.choosing, FilePurpose::reference);
 }
 
-/// The files of the current folder, by their extensions.
+/// Returns the files of the current folder by extension.
 std::map<std::string, std::string> files_here() {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(".")) {
@@ -54,7 +54,7 @@ std::map<std::string, std::string> files_here() {
     return files;
 }
 
-/// From the header of a PNG file.
+/// Returns the size in the header of a PNG file.
 glm::ivec2 size_of_png(const std::string& png) {
     const auto number = [&](std::size_t at) {
         return (static_cast<unsigned char>(png[at + 2]) << 8) + static_cast<unsigned char>(png[at + 3]);
@@ -82,7 +82,7 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     pugi::xml_document svg;
     ASSERT_TRUE(svg.load_string(files.at(".svg").c_str()));
     const auto lines = svg.document_element().children("polyline");
-    EXPECT_GE(std::distance(lines.begin(), lines.end()), 2); // a line a pane
+    EXPECT_GE(std::distance(lines.begin(), lines.end()), 2); // at least one line per pane
     for (const char* word : {"1  PT", "2  G-PR", "relMSE", "seconds", "a room"})
         EXPECT_NE(files.at(".svg").find(word), std::string::npos) << word;
     EXPECT_EQ(size_of_png(files.at(".png")).x, static_cast<int>(std::ceil(64 * ImGui::GetFontSize())));
@@ -91,17 +91,17 @@ TEST_F(Charts, AreSavedAsCsvSvgAndPng) {
     EXPECT_FALSE(has("charts.picture"));
 }
 
-TEST_F(Charts, AreNotSavedBeforeTheyAreMeasured) {
+TEST_F(Charts, AreSavedAfterTheirMeasurement) {
     const CurrentFolder folder;
     viewer.keyboard().press(Key::z, Key::z, false, false);
     frame();
-    EXPECT_TRUE(state().charts.histograms_due); // the wish alone asks for them
+    EXPECT_TRUE(state().charts.histograms_due); // the wish requests them
     EXPECT_TRUE(state().wishes.saves.has(SaveKind::charts));
     finish_saving();
     EXPECT_NE(files_here().at(".csv").find("luminance,pixels"), std::string::npos);
 }
 
-TEST_F(Charts, AreSavedAlikeFromAnyWindow) {
+TEST_F(Charts, SavedFilesDoNotDependOnTheWindow) {
     set_reference(Rgb(0.3f));
     wait_for_errors(1, 2);
     const auto saved = [&](glm::ivec2 window) {
@@ -117,11 +117,11 @@ TEST_F(Charts, AreSavedAlikeFromAnyWindow) {
     for (const glm::ivec2 window : {glm::ivec2(40, 30), glm::ivec2(1, 1)})
         EXPECT_TRUE(saved(window) == usual) << window.x;
     const ScreenPixels drawn = chart_picture(state());
-    EXPECT_GT(std::set<std::uint8_t>(drawn.rgb.begin(), drawn.rgb.end()).size(), 20u); // lines and letters
+    EXPECT_GT(std::set<std::uint8_t>(drawn.rgb.begin(), drawn.rgb.end()).size(), 20u); // lines and text
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(Charts, AreDrawnInOnePlaceAtATime) {
+TEST_F(Charts, AreDrawnEitherSmallOrLarge) {
     set_reference(Rgb(0.3f));
     state().layout.show_panel = false;
     type(Key::h);
@@ -133,8 +133,8 @@ TEST_F(Charts, AreDrawnInOnePlaceAtATime) {
     click("charts.large");
     frames(2);
     save("charts-large-once.png");
-    EXPECT_LT(gap(), plot);               // the buttons follow the choices, ...
-    const ScreenPixels pixels = screen(); // ... and nothing them
+    EXPECT_LT(gap(), plot);               // the buttons follow the choices,
+    const ScreenPixels pixels = screen(); // and nothing follows the buttons
     const int x = static_cast<int>(place("charts.large").center().x);
     const int below = static_cast<int>(place("charts.large").max.y) + 8;
     for (int y = below; y < pixels.size.y - 2; ++y)
@@ -148,7 +148,7 @@ TEST_F(Charts, AreDrawnInOnePlaceAtATime) {
     EXPECT_TRUE(has("charts.picture"));
     type(Key::h);
     frames(2);
-    EXPECT_FALSE(has("charts.picture") || has("charts.large")); // nor do they cover the pictures
+    EXPECT_FALSE(has("charts.picture") || has("charts.large")); // nothing covers the pictures
 }
 
 TEST_F(Charts, AreDrawnLarge) {

@@ -9,7 +9,7 @@
 
 namespace tessera::test {
 
-/// A viewer at rest, with a reference of one colour if asked for.
+/// A viewer at rest, optionally with a reference of one colour.
 struct Charts : testing::Test, ViewerHarness {
     Charts() { rest(2); }
 
@@ -17,7 +17,7 @@ struct Charts : testing::Test, ViewerHarness {
         state().companions.reference = make_reference("a reference", RgbImage(48, 36, value), {});
     }
 
-    /// The newest line of a pane, of errors to the reference or of estimates; empty: it has none.
+    /// Returns a pane's newest curve of errors or estimates; empty: it has none.
     std::vector<ErrorPoint> errors(int i) {
         const PaneChart& chart = state().charts.of(pane(i));
         const auto& curves = chart.curves;

@@ -1,4 +1,4 @@
-// Charts: how errors fall, and how shifts end.
+// Charts of errors and of shift outcomes.
 
 #include "tests/ui/drawing/charts_fixture.h"
 #include "ui/charts/charts.h"
@@ -16,7 +16,7 @@
 namespace tessera::test {
 namespace {
 
-TEST(PassHistory, KeepsTheNewestAndThinsOutTheOld) {
+TEST(PassHistory, KeepsTheNewestPointAndThinsOlderOnes) {
     PassHistory<ErrorPoint> history;
     for (int spp = 1; spp <= 1000; ++spp)
         history.add({spp, 0.01 * spp, 2.0 / spp, 0, 0});
@@ -24,26 +24,26 @@ TEST(PassHistory, KeepsTheNewestAndThinsOutTheOld) {
     EXPECT_LT(history.points().size(), 200u);
     EXPECT_GT(history.points().size(), 50u);
     EXPECT_EQ(history.points().front().spp, 1);
-    history.add({1000, 10, 7, 0, 0}); // reconstructed anew
+    history.add({1000, 10, 7, 0, 0}); // a new reconstruction of the same samples
     EXPECT_EQ(history.points().back().error, 7);
 }
 
-TEST(ViewerCharts, SlopeIsThatOfTheLastDecade) {
+TEST(ViewerCharts, SlopeIsOfTheLastDecade) {
     ChartSeries series;
     EXPECT_FALSE(slope_of_last_decade(series));
     for (int n = 1; n <= 1000; n *= 2)
         series.points.push_back({static_cast<double>(n), n < 50 ? 5 : 3.0 / n, n < 50 ? 5 : 0.3 / n});
     ASSERT_TRUE(slope_of_last_decade(series));
     EXPECT_NEAR(slope_of_last_decade(series)->value, -1, 1e-9);
-    EXPECT_GT(slope_of_last_decade(series)->error, 0.1); // all below may be too low by a tenth, all above too high
+    EXPECT_GT(slope_of_last_decade(series)->error, 0.1); // errors of 10 % with opposite signs at both ends
     EXPECT_LT(slope_of_last_decade(series)->error, 0.25);
 }
 
-TEST(ViewerCharts, ASlopeIsShownOnlyWhenItsIntervalIsKnown) {
+TEST(ViewerCharts, ASlopeNeedsStandardErrorsAndARange) {
     ChartSeries series;
     for (int n = 1; n <= 64; n *= 2)
         series.points.push_back({static_cast<double>(n), 3.0 / n, NAN});
-    EXPECT_FALSE(slope_of_last_decade(series)); // to a reference without halves
+    EXPECT_FALSE(slope_of_last_decade(series)); // a reference without halves
     for (ChartPoint& p : series.points)
         p.error = 0.01 * p.y;
     EXPECT_TRUE(slope_of_last_decade(series));
@@ -51,19 +51,19 @@ TEST(ViewerCharts, ASlopeIsShownOnlyWhenItsIntervalIsKnown) {
     EXPECT_FALSE(slope_of_last_decade(series));
 }
 
-// The first minute: curves without a reference.
-TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
+// Before a reference exists, curves show estimates.
+TEST_F(Charts, WithoutAReferenceTheErrorOfRawSamplesIsEstimated) {
     for (int spp : {4, 8, 16}) {
         state().rendering.pace.spp_limit = spp;
         wait_for_errors(0, spp);
         wait_for_errors(1, spp);
     }
     const std::vector<ErrorPoint> before = errors(1);
-    ASSERT_GE(before.size(), 3u); // from the first passes on, with the panel closed
+    ASSERT_GE(before.size(), 3u); // from the first passes on, even with the panel closed
     EXPECT_LE(before.front().spp, 4);
     EXPECT_LT(before.back().error, 0.5 * before.front().error);
     EXPECT_GT(before.back().standard_error, 0);
-    EXPECT_LT(before.back().error, errors(0).back().error); // sharing pays
+    EXPECT_LT(before.back().error, errors(0).back().error); // path reuse lowers the error
     char error[48];
     std::snprintf(error, sizeof error, "   estimated relMSE %.3g", before.back().error);
     EXPECT_NE(status_text(state(), 1).find(error), std::string::npos) << status_text(state(), 1);
@@ -79,13 +79,13 @@ TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
     EXPECT_EQ(chart.plots[0].series[1].points.size(), before.size());
     EXPECT_NE(chart_csv(state()).find("2,gpr,none,,16,"), std::string::npos) << chart_csv(state());
 
-    // Other reconstructions have the same samples.
+    // Another reconstruction has the same raw samples.
     state().panes[1].settings.reconstruction.norm = Norm::l1;
     wait_until([&] { return viewer.settled(16); });
     frames(5);
     EXPECT_EQ(state().charts[1].curves.size(), 1u);
 
-    // True errors take the place of estimates.
+    // Errors replace estimates.
     set_reference(Rgb(0.3f));
     EXPECT_TRUE(viewer_chart(state()).plots.at(0).series[1].points.empty());
     wait_until([&] { return state().charts[1].reference != nullptr; });
@@ -94,7 +94,7 @@ TEST_F(Charts, WithoutAReferenceTheSamplesErrorIsEstimated) {
     EXPECT_NE(status_text(state(), 1).find("   relMSE "), std::string::npos) << status_text(state(), 1);
 }
 
-TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
+TEST_F(Charts, EachPointKeepsItsSettings) {
     set_reference(Rgb(0.3f));
     for (int spp : {4, 8}) {
         state().rendering.pace.spp_limit = spp;
@@ -112,10 +112,9 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     EXPECT_EQ(state().charts[1].curves[0].points().size(), weighted);
     EXPECT_EQ(state().charts[1].curves[0].reconstruction.norm, Norm::guided);
     EXPECT_EQ(state().charts[1].curves[1].reconstruction.norm, Norm::l1);
-    EXPECT_EQ(state().charts[0].curves.size(), 1u); // PT reconstructs nothing
+    EXPECT_EQ(state().charts[0].curves.size(), 1u); // PT shows raw samples
     const std::string csv = chart_csv(state());
-    for (const char* line :
-         {"1,pt,none,,16,", "2,gpr,guided,0.2,8,", "2,gpr,l1,0.3,8,", "2,gpr,l1,0.3,16,"})
+    for (const char* line : {"1,pt,none,,16,", "2,gpr,guided,0.2,8,", "2,gpr,l1,0.3,8,", "2,gpr,l1,0.3,16,"})
         EXPECT_NE(csv.find(line), std::string::npos) << line << "\n" << csv;
     EXPECT_EQ(csv.find("guided,0.2,16"), std::string::npos) << csv;
     const Chart chart = viewer_chart(state());
@@ -128,7 +127,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     frames(2);
     save("charts-two-lines.png");
 
-    // A slider that passes by leaves no lines; what is asked for again goes on.
+    // Values that a dragged slider passes leave no lines. A line continues when its settings return.
     for (float alpha : {0.31f, 0.32f, 0.33f}) {
         state().panes[1].settings.reconstruction.alpha = alpha;
         wait_until([&] { return state().charts[1].curves.back().reconstruction.alpha == alpha; });
@@ -138,8 +137,7 @@ TEST_F(Charts, EachPointKeepsWhatItWasMadeWith) {
     wait_until([&] { return state().charts[1].curves.back().reconstruction.norm == Norm::guided; });
     EXPECT_EQ(errors(1).size(), weighted + 1);
 
-    // Until another method's pictures have been measured, the points are still the old one's, and so is the
-    // colour.
+    // Until pictures of another method are measured, points and colour are those of the previous method.
     const ImU32 colour = line_colours(state()).back();
     state().panes[1].settings.render.method = Method::pr;
     EXPECT_EQ(line_colours(state()).back(), colour);
@@ -156,7 +154,7 @@ TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {
     state().active_pane = 1;
     const auto before = errors(1);
     ASSERT_GE(before.size(), 2u);
-    state().set_pane_count(1); // the second is now the first
+    state().set_pane_count(1); // the second becomes the first
     frames(3);
     EXPECT_EQ(errors(0).size(), before.size());
     ASSERT_EQ(viewer_chart(state()).plots.at(0).series.size(), 1u);
@@ -168,7 +166,7 @@ TEST_F(Charts, APaneKeepsItsLinesWhenTheLayoutChanges) {
     EXPECT_EQ(errors(0).size(), before.size());
 }
 
-/// Noise of mean zero, the same for a seed.
+/// Returns noise with mean zero that depends on the seed only.
 RgbImage noisy(Rgb value, float noise, unsigned seed) {
     RgbImage image(48, 36, value);
     for (Rgb& pixel : image) {
@@ -178,7 +176,7 @@ RgbImage noisy(Rgb value, float noise, unsigned seed) {
     return image;
 }
 
-TEST_F(Charts, AReferenceOfTwoHalvesAddsNoErrorOfItsOwn) {
+TEST_F(Charts, AReferenceWithHalvesAddsNoErrorOfItsOwn) {
     const Rgb truth(0.5f);
     const RgbImage a = noisy(truth, 0.1f, 1), b = noisy(truth, 0.1f, 7);
     RgbImage mean = a;
@@ -215,7 +213,7 @@ TEST_F(Charts, StandardErrorsAreDrawnAsBars) {
         return screen();
     };
     drawn(0);
-    const ScreenPixels without = drawn(0), with = drawn(5); // whose ends move no axis
+    const ScreenPixels without = drawn(0), with = drawn(5); // the bars do not extend the axes
     save("chart-bars.png");
     int column = -1, rows = 0;
     for (int y = 0; y < 400; ++y)
@@ -229,7 +227,7 @@ TEST_F(Charts, StandardErrorsAreDrawnAsBars) {
     EXPECT_EQ(drawn(NAN).rgb, without.rgb);
 }
 
-TEST_F(Charts, PixelsThatAreNotFiniteAreLeftOutAndCounted) {
+TEST_F(Charts, NonFinitePixelsAreSkippedAndCounted) {
     for (const bool halves : {false, true}) {
         RgbImage image(48, 36, Rgb(0.5f));
         image(3, 4) = Rgb(NAN);
@@ -256,7 +254,7 @@ TEST_F(Charts, PixelsThatAreNotFiniteAreLeftOutAndCounted) {
     save("charts-caveat.png");
 }
 
-TEST_F(Charts, ErrorsAreGatheredPassByPass) {
+TEST_F(Charts, ErrorsAreMeasuredPassByPass) {
     set_reference(Rgb(0.3f));
     for (int spp : {4, 8, 16}) {
         state().rendering.pace.spp_limit = spp;
@@ -279,7 +277,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     choose("charts.axis", "spp");
     EXPECT_TRUE(state().layout.charts_by_spp);
 
-    // Another reference, and another request, begin anew.
+    // Another reference or request starts new curves.
     set_reference(Rgb(0.5f));
     wait_until([&] { return state().charts[0].reference == state().companions.reference; });
     EXPECT_EQ(errors(0).size(), 1u);
@@ -289,7 +287,7 @@ TEST_F(Charts, ErrorsAreGatheredPassByPass) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
+TEST_F(Charts, ShiftsEqualTheStatistics) {
     type(Key::h);
     choose("charts.kind", "shifts");
     EXPECT_EQ(state().layout.chart_kind, ChartKind::shifts);
@@ -299,7 +297,7 @@ TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
     }
     frames(2);
     save("charts-shifts.png");
-    EXPECT_TRUE(state().charts[0].shifts.points().empty()); // PT makes none
+    EXPECT_TRUE(state().charts[0].shifts.points().empty()); // PT has no shifts
     const auto& points = state().charts[1].shifts.points();
     ASSERT_GE(points.size(), 3u);
     EXPECT_EQ(points.back().spp, 16);
@@ -317,7 +315,7 @@ TEST_F(Charts, ShiftsAreThoseOfTheStatistics) {
     EXPECT_EQ(line_colours(state()).size(), chart.plots[0].series.size());
     EXPECT_TRUE(has("charts.shifts"));
 
-    state().panes[1].settings.render.tile = 3; // another request begins anew
+    state().panes[1].settings.render.tile = 3; // another request starts a new curve
     const std::uint64_t before = pane(1).generation;
     frames(2);
     EXPECT_NE(pane(1).generation, before);

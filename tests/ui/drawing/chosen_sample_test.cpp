@@ -1,4 +1,4 @@
-// A sample that somebody names by pixel, pass and seed: by the dialog, an option, a script, a message.
+// Inspection of a sample given by pixel, pass and seed: in the dialog, an option, a script or a message.
 
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
@@ -20,9 +20,9 @@ namespace {
 constexpr glm::ivec2 size(48, 36);
 constexpr glm::ivec2 pixel(20, 15);
 constexpr int pass = 5;
-constexpr std::uint64_t seed = 12345678901234567890u; // of 64 bits
+constexpr std::uint64_t seed = 12345678901234567890u; // needs 64 bits
 
-/// What reaches a pixel, and from where, in the bits of floats.
+/// The contributions to a pixel and their base pixels, as bits of floats.
 std::vector<float> bits(const Inspection& seen) {
     std::vector<float> result;
     const auto add = [&](Rgb c) { result.insert(result.end(), {c.r, c.g, c.b}); };
@@ -37,7 +37,7 @@ std::vector<float> bits(const Inspection& seen) {
     return result;
 }
 
-/// The sample as `tessera render` takes it, by LearnedReuse that its pass had.
+/// Traces the sample as `tessera render` does, with the LearnedReuse of its pass.
 std::vector<float> bits_of_render(const Scene& scene, RenderSettings settings) {
     const std::shared_ptr<const Scene> kept(&scene, [](const Scene*) {});
     settings.seed = seed;
@@ -48,7 +48,7 @@ std::vector<float> bits_of_render(const Scene& scene, RenderSettings settings) {
     const auto taken = [&](const LearnedReuse& learned) {
         return bits(inspect(scene, scene.camera(), size, settings, learned, pass, pixel));
     };
-    EXPECT_NE(taken(*render.newest_learned()), taken(LearnedReuse(size, settings))); // the passes before matter
+    EXPECT_NE(taken(*render.newest_learned()), taken(LearnedReuse(size, settings))); // earlier passes matter
     return taken(*render.newest_learned());
 }
 
@@ -68,12 +68,12 @@ struct ChosenSample : testing::Test, ViewerHarness {
     }
     void type_into(const std::string& control, const std::string& text) {
         click_at(control, 0.2f);
-        click_at(control, 0.2f); // a double click selects it all
+        click_at(control, 0.2f); // a double click selects all text
         for (char c : text) {
             ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
             frame();
         }
-        move_to(place("sample.close").center()); // the value is taken when its control is left
+        move_to(place("sample.close").center()); // the value is set when the control loses focus
     }
     void play(const std::string& text) {
         std::istringstream stream(text);
@@ -88,7 +88,7 @@ struct ChosenSample : testing::Test, ViewerHarness {
     std::string newest_message() { return state().messages.empty() ? "" : state().messages.back().text; }
 };
 
-TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
+TEST_F(ChosenSample, OfTheDialogEqualsTheRender) {
     rest(2);
     const RenderSettings before = pane(1).settings.render;
     click("menu View");
@@ -101,14 +101,14 @@ TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
     type_into("sample.y", std::to_string(pixel.y));
     type_into("sample.pass", std::to_string(pass));
     type_into("sample.seed", std::to_string(seed));
-    EXPECT_EQ(pane(1).settings.render, before); // nothing happens before the button
+    EXPECT_EQ(pane(1).settings.render, before); // nothing changes before the button is pressed
     click("sample.inspect");
     EXPECT_FALSE(state().layout.sample_form.show);
-    EXPECT_EQ(pane(0).settings.render.seed, seed); // which is linked
+    EXPECT_EQ(pane(0).settings.render.seed, seed); // the seed is linked
     expect_that_of_the_render();
     frames(3);
     save("sample-chosen.png");
-    // Opened again, it asks for what is looked at.
+    // Opened again, the dialog shows the inspected sample.
     type(Key::i, true);
     EXPECT_EQ(state().layout.sample_form.pixel, pixel);
     EXPECT_EQ(state().layout.sample_form.pass, pass);
@@ -117,15 +117,15 @@ TEST_F(ChosenSample, OfTheDialogIsThatOfTheRender) {
     EXPECT_FALSE(state().layout.sample_form.show);
 }
 
-TEST_F(ChosenSample, OfAScriptIsThatOfTheRender) {
+TEST_F(ChosenSample, OfAScriptEqualsTheRender) {
     state().rendering.pace.spp_limit = 1;
     viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     play("wait scene\nset seed " + std::to_string(seed) + "\ninspect 20 15 5");
-    ASSERT_TRUE(inspector().inspection); // the step has waited for it
+    ASSERT_TRUE(inspector().inspection); // the step has waited for the inspection
     expect_that_of_the_render();
 }
 
-/// Beside panes that render nothing.
+/// The panes are paused and have no picture.
 TEST_F(ChosenSample, NeedsNoPicture) {
     state().rendering.paused = true;
     viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
@@ -145,14 +145,14 @@ struct SampleOfAnOption : ChosenSample {
     SampleOfAnOption() : ChosenSample({1280, 720}, 1, options()) {}
 };
 
-TEST_F(SampleOfAnOption, IsThatOfTheRender) {
+TEST_F(SampleOfAnOption, EqualsTheRender) {
     frames(3);
-    EXPECT_TRUE(has("inspector.follow")); // before there is a scene
+    EXPECT_TRUE(has("inspector.follow")); // before a scene is loaded
     load_scene();
     expect_that_of_the_render();
 }
 
-TEST_F(ChosenSample, FollowsTheRequestsOfItsPane) {
+TEST_F(ChosenSample, IsTracedAgainForNewRequestsOfItsPane) {
     rest(3);
     state().inspect({7, 9}, 1, 0);
     ASSERT_TRUE(wait_for_sample());
@@ -161,7 +161,7 @@ TEST_F(ChosenSample, FollowsTheRequestsOfItsPane) {
     EXPECT_EQ(inspector().inspection->pass, 1);
 }
 
-TEST_F(ChosenSample, GivesWayToTheNewestPassThatIsToBeFollowed) {
+TEST_F(ChosenSample, FollowReplacesItByTheNewestPass) {
     rest(3);
     type(Key::i);
     state().inspector.follow(true);
@@ -177,7 +177,7 @@ TEST_F(ChosenSample, GivesWayToTheNewestPassThatIsToBeFollowed) {
     EXPECT_EQ(inspector().inspection->pixel, glm::ivec2(7, 9));
 }
 
-TEST_F(ChosenSample, OfAMessageGivesWayToo) {
+TEST_F(ChosenSample, FollowReplacesTheSampleOfAMessage) {
     rest(3);
     const PassOrigin earlier{state().scene, pane(1).snapshot->camera, size, pane(1).settings.render, {}, 0};
     state().inspect({pane(1).slot, {7, 9}, 1, std::make_shared<const PassOrigin>(earlier)});
@@ -189,16 +189,16 @@ TEST_F(ChosenSample, OfAMessageGivesWayToo) {
     EXPECT_EQ(inspector().inspection->pass, 2);
 }
 
-TEST_F(ChosenSample, OutsideThePictureIsRefused) {
+TEST_F(ChosenSample, OutsideThePictureIsAnError) {
     rest(2);
     state().inspect({48, 10}, 0, 0);
     frames(3);
     EXPECT_EQ(newest_message(), "There is no pixel (48, 10) to inspect: the picture has 48 x 36 pixels.");
     EXPECT_FALSE(inspector().sample);
-    EXPECT_TRUE(inspector().active); // a click may choose another
+    EXPECT_TRUE(inspector().active); // a click can choose another pixel
 }
 
-TEST_F(ChosenSample, OutsideASmallerPictureLeavesNothing) {
+TEST_F(ChosenSample, OutsideASmallerPictureIsDropped) {
     rest(2);
     state().inspect({40, 30}, 0, 0);
     ASSERT_TRUE(wait_for_sample());
@@ -207,23 +207,23 @@ TEST_F(ChosenSample, OutsideASmallerPictureLeavesNothing) {
     EXPECT_FALSE(inspector().inspection);
 }
 
-TEST_F(ChosenSample, OnePutAsideInTheSameFrameIsNotShown) {
+TEST_F(ChosenSample, OneReplacedInTheSameFrameIsNotShown) {
     rest(2);
     state().inspect({pane(1).slot, {7, 9}, {}});
     frame();
-    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it is found out, but not taken
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // the inspection is complete, but not taken
     state().inspect({pane(1).slot, {3, 4}, {}});
     frame();
     EXPECT_FALSE(inspector().inspection);
     ASSERT_TRUE(wait_for_sample());
     EXPECT_EQ(inspector().inspection->pixel, glm::ivec2(3, 4));
-    EXPECT_FALSE(viewer.all_drawn()); // only now it is known
+    EXPECT_FALSE(viewer.all_drawn()); // the result has just arrived
     frames(4);
     EXPECT_TRUE(viewer.all_drawn());
 }
 
-/// A late pass may take long: what is no longer wanted does not keep others waiting.
-TEST_F(ChosenSample, IsGivenUpForAnother) {
+/// The replay of a late pass takes long. A sample that is replaced does not delay the next one.
+TEST_F(ChosenSample, IsCancelledByAnother) {
     rest(2);
     state().inspect(pixel, 2000000000, 0);
     frames(3);
@@ -240,12 +240,12 @@ TEST_F(ChosenSample, IsGivenUpForAnother) {
     EXPECT_FALSE(viewer.inspecting());
 }
 
-TEST_F(ChosenSample, OfAScriptIsAPixelAndAPass) {
+TEST_F(ChosenSample, OfAScriptNeedsAValidPixelAndPass) {
     rest(2);
     for (const char* step : {"inspect 1.5 2 0", "inspect 1 2 -1", "inspect a 2 0", "inspect 1 2"})
         EXPECT_THROW(play(step), ScriptError) << step;
     EXPECT_THROW(play("set seed -1"), ScriptError);
-    EXPECT_THROW(play("inspect 1000 2 0"), ScriptError); // the viewer's own message
+    EXPECT_THROW(play("inspect 1000 2 0"), ScriptError); // the viewer's error message
 }
 
 } // namespace

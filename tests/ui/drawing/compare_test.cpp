@@ -1,4 +1,4 @@
-// One pane's picture against another's: where the line is, what the colours stand for, what is missing.
+// Comparison of panes: the line of a wipe, legends, and missing pictures.
 
 #include "tests/ui/drawing/panes_fixture.h"
 #include "ui/panes/showing.h"
@@ -14,7 +14,7 @@ namespace {
 
 using Compare = Panes;
 
-TEST_F(Compare, TheLineIsWhereTheMouseIsAfterGoingBeyondAnEnd) {
+TEST_F(Compare, TheLineFollowsTheMouseBackFromBeyondAnEnd) {
     click("pane0.picture");
     type(Key::v);
     const ControlRect rect = place("pane0.picture");
@@ -26,10 +26,10 @@ TEST_F(Compare, TheLineIsWhereTheMouseIsAfterGoingBeyondAnEnd) {
     EXPECT_EQ(state().layout.wipe, 0);
     move_to(grip + glm::vec2(-0.2f * width, 0));
     release();
-    EXPECT_NEAR(state().layout.wipe, 0.3f, 0.01f); // not 0.8, where the sum of the steps would lead
+    EXPECT_NEAR(state().layout.wipe, 0.3f, 0.01f); // not 0.8, the sum of the steps
 }
 
-TEST_F(Compare, AnEndOfARangeIsWhereTheMouseIsAfterGoingBeyondTheOther) {
+TEST_F(Compare, AnEndOfARangeFollowsTheMouseBackFromBeyondTheOther) {
     choose("pane1.buffer", "reused");
     const ControlRect legend = place("pane1.legend");
     const glm::vec2 grip(legend.min.x + 20, legend.max.y - 11);
@@ -39,7 +39,7 @@ TEST_F(Compare, AnEndOfARangeIsWhereTheMouseIsAfterGoingBeyondTheOther) {
     move_to(grip + glm::vec2(30, 0));
     const ValueRange once_beyond = state().display.ranges.at(Buffer::reused);
     release();
-    frame(1); // no double click with the next
+    frame(1); // prevents a double click with the next click
     state().display.ranges.clear();
     drag(grip, {30, 0});
     EXPECT_EQ(state().display.ranges.at(Buffer::reused), once_beyond);
@@ -64,12 +64,12 @@ TEST_F(Compare, EachSideOfAWipeHasItsLegend) {
     EXPECT_EQ(state().display.ranges.count(Buffer::survival), 1u);
     state().layout.wipe = 0;
     frames(2);
-    EXPECT_FALSE(has("pane0.legend")); // nothing of that side is seen
+    EXPECT_FALSE(has("pane0.legend")); // that side is not visible
     EXPECT_TRUE(has("pane0.right_legend"));
     state().layout.wipe = 0.5f;
     choose("pane0.buffer", "survival");
     EXPECT_TRUE(has("pane0.legend"));
-    EXPECT_FALSE(has("pane0.right_legend")); // one serves both
+    EXPECT_FALSE(has("pane0.right_legend")); // both sides share one
 }
 
 TEST_F(Compare, GradientsAndDifferencesHaveALegend) {
@@ -85,12 +85,12 @@ TEST_F(Compare, GradientsAndDifferencesHaveALegend) {
     click("pane0.picture");
     type(Key::n);
     EXPECT_TRUE(has("pane0.legend"));
-    choose("pane0.buffer", "dx"); // path tracing has none
+    choose("pane0.buffer", "dx"); // PT has no gradients
     EXPECT_FALSE(has("pane0.legend"));
 }
 
 TEST_F(Compare, ADifferenceWithoutASubtrahendShowsNothing) {
-    choose("pane0.buffer", "dx"); // path tracing measures none
+    choose("pane0.buffer", "dx"); // PT has no gradients
     choose("pane1.buffer", "dx");
     click("pane1.picture");
     type(Key::n);
@@ -101,12 +101,12 @@ TEST_F(Compare, ADifferenceWithoutASubtrahendShowsNothing) {
     EXPECT_FALSE(has("pane1.value"));
     EXPECT_EQ(missing_text(difference, state()), "PT measures no gradients");
     const ScreenPixels pixels = screen();
-    for (float x : {0.3f, 0.5f, 0.7f}) // but for the words in the middle
+    for (float x : {0.3f, 0.5f, 0.7f}) // avoiding the text in the middle
         EXPECT_LT(glm::distance(colour(pixels, point(1, x, 0.35f)), glm::vec3(14, 15, 17)), 3) << x;
     save("no-subtrahend.png");
 }
 
-TEST_F(Compare, TheRightSideOfAWipeSaysWhatItLacks) {
+TEST_F(Compare, TheRightSideOfAWipeShowsItsMissingText) {
     choose("pane0.buffer", "dx");
     click("pane1.picture");
     type(Key::v);
@@ -114,17 +114,17 @@ TEST_F(Compare, TheRightSideOfAWipeSaysWhatItLacks) {
     frames(2);
     save("no-right-side.png");
     const ScreenPixels pixels = screen();
-    float brightest = 0; // of some light words on dark
+    float brightest = 0; // of light text on dark ground
     for (float x = 0.25f; x < 0.98f; x += 0.002f)
         for (float y = 0.47f; y < 0.53f; y += 0.004f)
             brightest = std::max(brightest, colour(pixels, point(1, x, y)).g);
     EXPECT_GT(brightest, 80);
 }
 
-// The same for all panes, and as long as a request lasts: what is equal looks equal.
-TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
+// The range is the same in all panes and during a request, so that equal values have equal colours.
+TEST_F(Compare, FalseColoursAreComparableBetweenPanesAndPasses) {
     choose("pane0.method", "pr");
-    command("Variance of primal"); // variances
+    command("Variance of primal");
     wait_for_settled();
     const auto shared = [&] { return range_of(Buffer::primal_variance, state(), viewer.pictures().images()); };
     const ValueRange range = shared(),
@@ -132,13 +132,13 @@ TEST_F(Compare, FalseColoursCanBeComparedBetweenPanesAndTimes) {
     ASSERT_NE(own[0], own[1]);
     EXPECT_EQ(range.low, std::min(own[0].low, own[1].low));
     EXPECT_EQ(range.high, std::max(own[0].high, own[1].high));
-    state().rendering.pace.spp_limit = 60; // the variances fall by twenty
+    state().rendering.pace.spp_limit = 60; // the variances fall by a factor of 20
     wait_until([&] { return viewer.settled(60); });
     frames(2);
     EXPECT_EQ(shared(), range);
     save("variances.png");
     state().wishes.restart = true;
-    frame(); // in which it is asked for: what is on show until then has settled long since
+    frame(); // sends the request; before, the old request is settled
     wait_for_settled();
     EXPECT_NE(shared(), ValueRange());
 }

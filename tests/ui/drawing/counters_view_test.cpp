@@ -1,4 +1,4 @@
-// What a render has counted, as it is seen in the viewer: maps and panel.
+// Counters of a render in the viewer: maps and panel.
 
 #include "tests/support/scene_builder.h"
 #include "tests/ui/drawing/panes_fixture.h"
@@ -17,7 +17,7 @@ namespace tessera::test {
 namespace {
 
 struct CountersView : Panes {
-    /// In the right pane.
+    /// Expects the right pane to show the map in false colours from 0 to `top`.
     void expect_map(const Image<float>& map, float top);
 };
 
@@ -37,7 +37,7 @@ void CountersView::expect_map(const Image<float>& map, float top) {
     }
 }
 
-TEST_F(CountersView, MapsAreShownAfterTheirKeys) {
+TEST_F(CountersView, KeysShowTheMaps) {
     EXPECT_FALSE(has("pane1.legend"));
     const auto maps = pane(1).snapshot->reuse;
     ASSERT_NE(maps, nullptr);
@@ -63,7 +63,7 @@ TEST_F(CountersView, LegendShowsItsColoursWithinThePicture) {
     EXPECT_GT(legend.min.x, picture.min.x);
     EXPECT_LT(legend.max.y, picture.max.y);
     const ScreenPixels pixels = screen();
-    float least = 255, most = 0; // of the bar's green, from dark to bright
+    float least = 255, most = 0; // green channel of the bar
     for (float x = legend.min.x + 9; x < legend.max.x - 9; ++x) {
         const float green = pixels.at(static_cast<int>(x), static_cast<int>(legend.max.y) - 10)[1];
         least = std::min(least, green);
@@ -83,7 +83,7 @@ TEST_F(CountersView, PathTracingHasNoMaps) {
     }
 }
 
-TEST_F(CountersView, NoLegendWhereThereIsNoRoom) {
+TEST_F(CountersView, NoLegendWithoutSpace) {
     type(Key::digit5);
     resize({360, 200});
     EXPECT_FALSE(has("pane1.legend"));
@@ -110,7 +110,7 @@ TEST_F(CountersView, PanelShowsTheFiguresOfTheActivePane) {
         }
     }
     EXPECT_TRUE(has("statistics.shifts.ok"));
-    EXPECT_TRUE(has("tile")); // the settings have the room above
+    EXPECT_TRUE(has("tile")); // the settings are above
     save("statistics.png");
 
     click("pane0.picture");
@@ -120,10 +120,10 @@ TEST_F(CountersView, PanelShowsTheFiguresOfTheActivePane) {
     EXPECT_FALSE(has("statistics.spp"));
 }
 
-TEST_F(CountersView, PanelDrawsSharesAsBars) {
-    type(Key::p); // alone: nothing is scrolled away
+TEST_F(CountersView, PanelDrawsFractionsAsBars) {
+    type(Key::p); // closes the settings, so that nothing is scrolled away
     type(Key::t);
-    ASSERT_TRUE(wait_until([&] { return viewer.settled(3); })); // of another size
+    ASSERT_TRUE(wait_until([&] { return viewer.settled(3); })); // the size has changed
     const Snapshot& snapshot = *pane(1).snapshot;
     const double share =
         static_cast<double>(snapshot.counters.rays[static_cast<std::size_t>(RayKind::shift_edge)]) /

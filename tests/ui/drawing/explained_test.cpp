@@ -1,4 +1,4 @@
-// What explains the viewer: tooltips, typed values, shortcuts.
+// Tooltips, typed values and shortcuts.
 
 #include "tests/ui/viewer_harness.h"
 #include "ui/panes/pane_parts.h"
@@ -16,7 +16,7 @@ namespace {
 struct Explained : testing::Test, ViewerHarness {
     Explained() : ViewerHarness({1600, 1000}) { rest(3); }
 
-    /// Ids of what lacks a tooltip and is no menu and no picture, which explain themselves.
+    /// Returns the ids of controls without a tooltip, except menus and pictures.
     std::set<std::string> silent() {
         std::set<std::string> result;
         for (const std::string& id : viewer.controls().unexplained())
@@ -32,7 +32,7 @@ struct Explained : testing::Test, ViewerHarness {
     }
     void select_all_and_type(const std::string& control, const char* text) {
         click_at(control, 0.2f);
-        click_at(control, 0.2f); // a double click selects it all
+        click_at(control, 0.2f); // a double click selects all text
         press_text(text);
     }
 };
@@ -60,7 +60,7 @@ TEST_F(Explained, EveryControlHasATooltip) {
     for (const char* menu : {"File", "Render", "Buffer", "View", "Panes", "Camera", "Help"}) {
         click("menu " + std::string(menu));
         EXPECT_EQ(silent(), Silent()) << menu;
-        click("menu " + std::string(menu)); // shut
+        click("menu " + std::string(menu)); // closes the menu
     }
     for (const char* choice : {"pane0.method", "pane0.buffer", "compare", "compare_with", "size", "tone", "norm",
                                "equal", "roulette", "charts.axis", "pattern"}) {
@@ -68,7 +68,7 @@ TEST_F(Explained, EveryControlHasATooltip) {
         ASSERT_TRUE(viewer.controls().rects().upper_bound(std::string(choice) + "/") !=
                     viewer.controls().rects().end());
         EXPECT_EQ(silent(), Silent()) << choice;
-        click(glm::vec2(3, 995)); // shut
+        click(glm::vec2(3, 995)); // closes the list
     }
 }
 
@@ -80,7 +80,7 @@ TEST_F(Explained, TheInspectorsControlsHaveTooltips) {
     EXPECT_EQ(silent(), Silent());
 }
 
-TEST_F(Explained, WhatLiesOverThePicturesHasTooltips) {
+TEST_F(Explained, OverlaysOfPicturesHaveTooltips) {
     for (auto show :
          {+[](ViewerState& s) { s.set_slow_motion(true); }, +[](ViewerState& s) { s.layout.large_charts = true; },
           +[](ViewerState& s) { s.reference_making.show = true; },
@@ -94,7 +94,7 @@ TEST_F(Explained, WhatLiesOverThePicturesHasTooltips) {
     }
 }
 
-TEST_F(Explained, ValuesSayWhatTheyAre) {
+TEST_F(Explained, ValuesHaveUnits) {
     const auto help_of = [&](const char* buffer) {
         choose("pane1.buffer", buffer);
         return cursor_help(showing_at(state(), 1, 0.5f), state());
@@ -107,10 +107,10 @@ TEST_F(Explained, ValuesSayWhatTheyAre) {
     EXPECT_NE(help_of("primal").find("luminance (Y)"), std::string::npos);
 }
 
-TEST_F(Explained, ATypedNumberIsTakenWhenItsControlIsLeft) {
+TEST_F(Explained, ATypedNumberIsSetWhenTheControlLosesFocus) {
     state().rendering.paused = true;
     select_all_and_type("spp_limit", "64");
-    EXPECT_EQ(state().rendering.pace.spp_limit, 3); // not yet
+    EXPECT_EQ(state().rendering.pace.spp_limit, 3); // not set yet
     click("pane0.picture");
     EXPECT_EQ(state().rendering.pace.spp_limit, 64);
     select_all_and_type("seconds_limit", "2.5");
@@ -119,18 +119,18 @@ TEST_F(Explained, ATypedNumberIsTakenWhenItsControlIsLeft) {
     state().rendering.pace.seconds_limit = 0;
     state().rendering.pace.equal = Pace::Equal::spp;
     frames(2);
-    EXPECT_FALSE(has("seconds_limit")) << "one limit is enough";
+    EXPECT_FALSE(has("seconds_limit")) << "there is one limit at a time";
     click_at("spp_limit", 0.97f); // the button
     EXPECT_EQ(state().rendering.pace.spp_limit, 65);
     choose("size", "custom");
     const std::uint64_t before = pane(0).generation;
     select_all_and_type("width", "33");
-    EXPECT_EQ(pane(0).generation, before); // no render for every digit
+    EXPECT_EQ(pane(0).generation, before); // digits do not restart the render
     click("pane0.picture");
     EXPECT_EQ(state().rendering.size.custom.x, 33);
 }
 
-TEST_F(Explained, ATypedFileIsTakenWhenItsControlIsLeft) {
+TEST_F(Explained, ATypedFileIsSetWhenTheControlLosesFocus) {
     click_at("reference", 0.3f);
     press_text("absent.exr");
     click("pane0.picture");

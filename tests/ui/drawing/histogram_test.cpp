@@ -1,4 +1,4 @@
-// Charts: histograms of the pictures on show.
+// Histograms of the pictures on show.
 
 #include "tests/ui/drawing/charts_fixture.h"
 #include "ui/state/companions.h"
@@ -29,7 +29,7 @@ TEST(Histogram, CountsEveryPixelOnce) {
     EXPECT_EQ(ones, 3u);
 }
 
-TEST_F(Charts, WithoutAReferenceThereIsAHistogram) {
+TEST_F(Charts, AHistogramNeedsNoReference) {
     type(Key::h);
     wait_until([&] { return state().charts[1].histogram != nullptr; });
     frames(2);
@@ -40,7 +40,7 @@ TEST_F(Charts, WithoutAReferenceThereIsAHistogram) {
     EXPECT_EQ(sum, 48u * 36u);
 }
 
-TEST_F(Charts, AHistogramIsOfWhatIsOnShow) {
+TEST_F(Charts, AHistogramIsOfThePictureOnShow) {
     type(Key::h);
     wait_until([&] { return state().charts[1].histogram != nullptr; });
     state().display.tone.exposure = 1; // the same picture
@@ -52,7 +52,7 @@ TEST_F(Charts, AHistogramIsOfWhatIsOnShow) {
     frame();
     EXPECT_TRUE(!state().charts[1].histogram || state().charts[1].histogram_generation == pane(1).generation);
     wait_until([&] { return state().charts[1].histogram != nullptr; });
-    type(Key::h); // passes go on while nobody looks
+    type(Key::h); // passes continue while the panel is closed
     EXPECT_EQ(state().charts[1].histogram, nullptr);
     type(Key::h);
     EXPECT_TRUE(wait_until([&] { return state().charts[1].histogram != nullptr; }));

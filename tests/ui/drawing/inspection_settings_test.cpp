@@ -1,4 +1,4 @@
-// What the path inspector and the slow motion show, saved and taken back.
+// Path inspector and slow motion in settings files.
 
 #include "render/inspect/inspection.h"
 #include "render/io/text.h"
@@ -23,22 +23,22 @@ struct InspectionSettings : testing::Test {
     ViewerState& state() { return h->state(); }
     SampleChoice sample(int index, glm::ivec2 pixel) { return {h->pane(index).slot, pixel, {}}; }
 
-    /// Whether the inspector's paths are on show in the end, among what lies around them.
+    /// Waits until the inspector shows paths and surroundings.
     bool wait_for_paths() {
         const bool found =
             h->wait_until([&] { return state().inspector.inspection && state().space.surroundings; });
         h->frames(3);
         return found;
     }
-    /// Whether the slow motion's tile is.
+    /// Waits until the slow motion shows its tile.
     bool wait_for_tile() {
         const SlowMotion& slow = state().slow_motion;
         return h->wait_until([&] { return slow.shows_choice() && !slow.frames; });
     }
-    /// Takes the place of the viewer with another, which gets its settings: they are returned.
+    /// Replaces the viewer by another one with its settings. Returns the settings.
     std::string begin_anew() {
         const std::string text = settings_json(state());
-        h.reset(); // there is one at a time
+        h.reset(); // only one viewer may exist
         h = std::make_unique<ViewerHarness>();
         h->rest(3);
         apply_settings_json(state(), text, "settings.json");
@@ -49,7 +49,7 @@ struct InspectionSettings : testing::Test {
 };
 
 TEST_F(InspectionSettings, TheInspectorShowsTheSamePixel) {
-    state().set_pane_count(1); // whose slot is not the first
+    state().set_pane_count(1); // its slot is not the first
     h->type(Key::i);
     state().inspector.choose(sample(0, {16, 14}));
     state().inspector.direction = Inspector::Direction::from_pixel;
@@ -65,7 +65,7 @@ TEST_F(InspectionSettings, TheInspectorShowsTheSamePixel) {
     ASSERT_TRUE(wait_for_paths());
     EXPECT_EQ(state().inspector.inspection->pixel, glm::ivec2(16, 14));
     EXPECT_EQ(state().inspector.inspection->method, Method::gpr);
-    EXPECT_FALSE(state().space.fits); // all is in view, from where it looked
+    EXPECT_FALSE(state().space.fits); // the view is restored
     EXPECT_LT(glm::distance(state().space.camera.forward(), forward), 1e-5f);
     h->save("inspector-restored.png");
 }
@@ -76,7 +76,7 @@ TEST_F(InspectionSettings, AGivenPassIsTheSame) {
     begin_anew();
     ASSERT_TRUE(wait_for_paths());
     EXPECT_EQ(state().inspector.inspection->pixel, glm::ivec2(16, 14));
-    EXPECT_EQ(state().inspector.inspection->pass, 1); // of 3
+    EXPECT_EQ(state().inspector.inspection->pass, 1); // of 3 passes
 }
 
 TEST_F(InspectionSettings, TheViewInSpaceBelongsToItsScene) {
@@ -92,7 +92,7 @@ TEST_F(InspectionSettings, TheViewInSpaceBelongsToItsScene) {
     EXPECT_LT(glm::distance(state().space.camera.forward(), at_first), 1e-5f);
 }
 
-TEST_F(InspectionSettings, TheSlowMotionHasTheSameTile) {
+TEST_F(InspectionSettings, TheSlowMotionShowsTheSameTile) {
     const ImageView before(1.5f, {0.4f, 0.5f});
     state().set_view(before);
     h->type(Key::j);
@@ -110,14 +110,14 @@ TEST_F(InspectionSettings, TheSlowMotionHasTheSameTile) {
         EXPECT_EQ(state().slow_motion.speed, 7.5f);
         EXPECT_TRUE(state().slow_motion.tile->tile.contains({40, 6}));
         EXPECT_TRUE(state().display.view == enlarged);
-        apply_settings_json(state(), text, "settings.json"); // again, while it is on
+        apply_settings_json(state(), text, "settings.json"); // again, while the slow motion is on
     }
     h->type(Key::j);
     h->frames(2);
     EXPECT_TRUE(state().display.view == before);
 }
 
-TEST_F(InspectionSettings, APixelOfAnEarlierPictureIsNotSaved) {
+TEST_F(InspectionSettings, ASampleOfAnOlderRenderIsNotSaved) {
     const Snapshot& s = *h->pane(1).snapshot;
     const auto origin = std::make_shared<const PassOrigin>(
         PassOrigin{state().scene, s.camera, {48, 36}, s.settings, s.learned, s.generation});
@@ -129,20 +129,21 @@ TEST_F(InspectionSettings, APixelOfAnEarlierPictureIsNotSaved) {
     EXPECT_EQ(settings_json(state()).find("\"sample\""), std::string::npos);
 }
 
-TEST_F(InspectionSettings, AFileWithoutThemLeavesThemAsTheyAre) {
+TEST_F(InspectionSettings, MissingFieldsChangeNothing) {
     h->type(Key::i);
     state().inspector.choose(sample(1, {16, 14}));
     apply_settings_json(state(), "{\"panes\": [{}, {}]}", "old.json");
     EXPECT_TRUE(state().inspector.active);
     EXPECT_TRUE(state().inspector.sample == sample(1, {16, 14}));
-    EXPECT_EQ(settings_json(state()).find("\"space\""), std::string::npos); // which has no direction yet
+    EXPECT_EQ(settings_json(state()).find("\"space\""),
+              std::string::npos); // the view in space has no direction yet
 }
 
-TEST_F(InspectionSettings, WhatIsBrokenIsNamedWithItsPlace) {
+TEST_F(InspectionSettings, ErrorsHaveAPosition) {
     const std::string before = settings_json(state());
     const std::pair<const char*, const char*> cases[] = {
         {"\"inspector\": true", "this must be an object"},
-        {"\"inspector\": {\"on\": 1}", "on is of the wrong kind: number"},
+        {"\"inspector\": {\"on\": 1}", "on has the wrong type: number"},
         {"\"inspector\": {\"shows\": \"both\"}", "shows is \"both\": must be one of to_pixel, from_pixel"},
         {"\"inspector\": {\"sample\": {\"pane\": 2}}", "pane is out of range"},
         {"\"inspector\": {\"sample\": {\"pane\": 1, \"x\": -1}}", "x is out of range"},
@@ -162,7 +163,7 @@ TEST_F(InspectionSettings, WhatIsBrokenIsNamedWithItsPlace) {
         EXPECT_EQ(settings_json(state()), before) << field;
     }
     apply_settings_json(state(), "{\"panes\": [{}],\n \"inspector\": {\"sample\": {\"z\": 1}}}", "odd.json");
-    EXPECT_EQ(state().messages.back().text, "odd.json:2:32: there is no \"z\": it is ignored");
+    EXPECT_EQ(state().messages.back().text, "odd.json:2:32: the unknown field \"z\" is ignored");
 }
 
 } // namespace

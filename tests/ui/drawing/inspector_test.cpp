@@ -1,4 +1,4 @@
-// The path inspector: a pixel is chosen by the mouse, and its sample drawn and listed.
+// The path inspector: choice of a pixel by the mouse, and display of its sample.
 
 #include "render/inspect/inspection.h"
 #include "tests/ui/viewer_harness.h"
@@ -39,7 +39,7 @@ struct PathInspector : testing::Test, ViewerHarness {
         wait_until([&] { return inspector().inspection && inspector().inspection->pixel == pixel; });
         frames(3);
     }
-    /// Whether nothing keeps the scene on show once another takes its place.
+    /// Whether the scene is destroyed when another scene replaces it.
     bool lets_go_of_the_scene() {
         const std::weak_ptr<const Scene> before = state().scene;
         viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
@@ -64,7 +64,7 @@ TEST_F(PathInspector, AClickChoosesAPixelAndMovesNoCamera) {
     EXPECT_TRUE(has("shifts.outcome"));
     save("inspector.png");
     EXPECT_NE(screen().rgb, before.rgb);
-    // x1 lies in the pixel that was clicked.
+    // x1 lies in the pixel clicked.
     const Projection projection(camera, {48, 36});
     const glm::vec4 seen = projection.project(inspector().inspection->path.front().position);
     EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.w), glm::ivec2(16, 14));
@@ -99,7 +99,7 @@ TEST_F(PathInspector, ARowListsTheVerticesOfItsShift) {
     move_to({20, 200});
     EXPECT_EQ(inspector().marked, -1);
     save("inspector-row.png");
-    EXPECT_NE(screen().rgb, base.rgb); // other vertices, and the shift stands out
+    EXPECT_NE(screen().rgb, base.rgb); // other vertices, and the shift is highlighted
     click(glm::vec2(first.min.x + 20, first.center().y));
     EXPECT_EQ(inspector().chosen, -1);
     click(glm::vec2(first.min.x + 20, first.center().y));
@@ -118,17 +118,17 @@ TEST_F(PathInspector, ThePixelsTileIsMarked) {
     for (const InspectedShift* s : set.to({16, 14})) {
         if (s->from == s->to || is_black(s->value))
             continue;
-        const glm::vec2 at = middle(1, s->from) + glm::vec2(3, 4); // beside lines
+        const glm::vec2 at = middle(1, s->from) + glm::vec2(3, 4); // beside the lines
         const std::uint8_t* a = before.at(static_cast<int>(at.x), static_cast<int>(at.y));
         const std::uint8_t* b = after.at(static_cast<int>(at.x), static_cast<int>(at.y));
-        changed += b[1] - a[1] > b[0] - a[0]; // toward the green of success
+        changed += b[1] - a[1] > b[0] - a[0]; // the green of successful shifts
         ++brings;
     }
     EXPECT_GT(brings, 0);
     EXPECT_GE(changed * 4, brings * 3);
 }
 
-TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
+TEST_F(PathInspector, TheViewInSpaceOrbitsAndZooms) {
     type(Key::i);
     inspect_pixel(1, {16, 14});
     ASSERT_TRUE(wait_until([&] { return state().space.surroundings != nullptr; }));
@@ -145,7 +145,7 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
     const auto at_first = pictured();
     EXPECT_GT(std::count(at_first.begin(), at_first.end(), 255), 100); // the base path is white
     const Camera fitted = state().space.camera.camera(), scene = state().camera.camera();
-    // All vertices are in view.
+    // All vertices are visible.
     const glm::ivec2 size(glm::vec2(rect.max - rect.min));
     for (const InspectedVertex& x : inspector().inspection->path) {
         const glm::vec4 p = Projection(fitted, size).project(x.position);
@@ -158,7 +158,7 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
     wheel(3);
     EXPECT_FALSE(state().space.camera.camera() == fitted);
     double_click();
-    EXPECT_FALSE(state().space.fits); // all is shown again, from where it looks
+    EXPECT_FALSE(state().space.fits); // the whole path is shown again from this direction
     for (int i = 0; i < 4; ++i)
         EXPECT_LT(glm::distance(state().space.camera.camera().to_world[i], fitted.to_world[i]), 1e-3f) << i;
 
@@ -173,11 +173,11 @@ TEST_F(PathInspector, TheViewInSpaceTurnsAndComesNearer) {
     drag(rect.center(), {10, 0});
     modifiers(false, false);
     EXPECT_LT(glm::distance(state().space.camera.forward(), forward), 1e-4f);
-    EXPECT_TRUE(state().camera.camera() == scene); // the scene's own stays
+    EXPECT_TRUE(state().camera.camera() == scene); // the pane's camera does not move
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(PathInspector, TheSampleStaysUntilItIsToFollow) {
+TEST_F(PathInspector, TheSampleStaysUnlessItFollows) {
     type(Key::i);
     inspect_pixel(0, {30, 20});
     state().rendering.pace.spp_limit = 5;
@@ -189,7 +189,7 @@ TEST_F(PathInspector, TheSampleStaysUntilItIsToFollow) {
     EXPECT_TRUE(wait_until([&] { return inspector().inspection->pass == 4; }));
 }
 
-TEST_F(PathInspector, AnotherRequestIsLookedAtAnew) {
+TEST_F(PathInspector, ANewRequestIsInspectedAgain) {
     type(Key::i);
     inspect_pixel(1, {16, 14});
     const std::uint64_t generation = inspector().generation;
@@ -197,7 +197,7 @@ TEST_F(PathInspector, AnotherRequestIsLookedAtAnew) {
     EXPECT_TRUE(wait_until([&] { return inspector().generation > generation; }));
     EXPECT_EQ(inspector().inspection->method, Method::pr);
     const auto inspection = inspector().inspection;
-    type(Key::digit1, true); // the second pane is now the first
+    type(Key::digit1, true); // the second pane becomes the first
     frames(5);
     EXPECT_EQ(inspector().slot, pane(0).slot);
     EXPECT_EQ(inspector().inspection, inspection);
@@ -210,7 +210,7 @@ TEST_F(PathInspector, AnotherRequestIsLookedAtAnew) {
     EXPECT_FALSE(has("inspector.direction"));
 }
 
-TEST_F(PathInspector, ThePixelOfAPaneThatIsGoneIsLookedAtInTheActiveOne) {
+TEST_F(PathInspector, ThePixelOfAClosedPaneMovesToTheActivePane) {
     type(Key::i);
     inspect_pixel(1, {16, 14});
     type(Key::tab);
@@ -221,7 +221,7 @@ TEST_F(PathInspector, ThePixelOfAPaneThatIsGoneIsLookedAtInTheActiveOne) {
     EXPECT_EQ(inspector().inspection->pixel, glm::ivec2(16, 14));
 }
 
-TEST_F(PathInspector, NoReplacedSceneIsKept) {
+TEST_F(PathInspector, ReplacedScenesAreDestroyed) {
     type(Key::i);
     inspect_pixel(1, {16, 14});
     ASSERT_TRUE(wait_until([&] { return state().space.surroundings != nullptr; }));
@@ -229,7 +229,7 @@ TEST_F(PathInspector, NoReplacedSceneIsKept) {
     EXPECT_TRUE(lets_go_of_the_scene());
 }
 
-TEST_F(PathInspector, ClosedItKeepsNoReplacedSceneOfItsOwn) {
+TEST_F(PathInspector, AClosedInspectorKeepsNoReplacedScene) {
     type(Key::i);
     {
         const Snapshot& s = *pane(1).snapshot;

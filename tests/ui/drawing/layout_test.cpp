@@ -1,4 +1,4 @@
-// The size that is rendered: what is shown about the pictures throws no samples away.
+// The rendered size: panels around the pictures discard no samples.
 
 #include "tests/ui/viewer_harness.h"
 
@@ -10,7 +10,7 @@
 namespace tessera::test {
 namespace {
 
-/// Two panes as large as their places, at rest with many samples.
+/// Two panes that fit their areas, at rest with many samples.
 struct Layout : testing::Test, ViewerHarness {
     Layout() : ViewerHarness({400, 240}, 1, as_large_as_the_panes()) { rest(many); }
 
@@ -23,7 +23,7 @@ struct Layout : testing::Test, ViewerHarness {
     bool waits_for_another_size() { return state().fitting_size() != state().request_size(); }
 };
 
-TEST_F(Layout, NoPanelNorWindowSizeRestartsARender) {
+TEST_F(Layout, PanelsAndWindowSizeRestartNoRender) {
     const std::uint64_t first = pane(0).generation, second = pane(1).generation;
     const auto same = [&](const char* what) {
         frames(3);
@@ -35,7 +35,7 @@ TEST_F(Layout, NoPanelNorWindowSizeRestartsARender) {
         type(key);
         same("a panel");
     }
-    EXPECT_FALSE(waits_for_another_size()); // all as before
+    EXPECT_FALSE(waits_for_another_size()); // the size fits again
     type(Key::o);
     EXPECT_TRUE(waits_for_another_size());
     same("one pane alone");
@@ -49,14 +49,14 @@ TEST_F(Layout, NoPanelNorWindowSizeRestartsARender) {
     same("larger text");
 }
 
-TEST_F(Layout, APanelBelowHidesNothingOfThePictures) {
+TEST_F(Layout, ABottomPanelDoesNotCoverThePictures) {
     const std::uint64_t before = pane(0).generation;
     const float without = place("pane0.picture").max.y;
     type(Key::i);
     frames(3);
     EXPECT_LE(place("pane0.picture").max.y, place("inspector.direction").min.y);
     EXPECT_EQ(pane(0).generation, before);
-    resize({400, 40}); // hardly room for either
+    resize({400, 40}); // hardly enough space for both
     EXPECT_LT(place("pane0.picture").min.y, place("pane0.picture").max.y);
     resize({400, 240});
     type(Key::i);
@@ -64,7 +64,7 @@ TEST_F(Layout, APanelBelowHidesNothingOfThePictures) {
     EXPECT_EQ(place("pane0.picture").max.y, without);
 }
 
-TEST_F(Layout, ASizeThatFitsComesWithARestart) {
+TEST_F(Layout, ABetterSizeIsUsedAtARestart) {
     resize({700, 500});
     ASSERT_TRUE(waits_for_another_size());
     type(Key::r);
@@ -72,17 +72,18 @@ TEST_F(Layout, ASizeThatFitsComesWithARestart) {
     wait_until([&] { return viewer.settled(many); });
 
     resize({400, 240});
-    state().panes[0].settings.render.method = Method::pr; // one pane restarts; the other would lose its samples
+    state().panes[0].settings.render.method =
+        Method::pr; // one pane restarts, but the other would lose its samples
     const std::uint64_t other = pane(1).generation;
     frames(2);
     EXPECT_TRUE(waits_for_another_size());
     EXPECT_EQ(pane(1).generation, other);
-    state().camera.dolly(0.9f); // all do
+    state().camera.dolly(0.9f); // restarts all panes
     frames(2);
     EXPECT_FALSE(waits_for_another_size());
 }
 
-TEST_F(Layout, ASizeThatIsChosenIsTakenAtOnce) {
+TEST_F(Layout, AChosenSizeIsUsedAtOnce) {
     const std::uint64_t before = pane(0).generation;
     state().rendering.size = {SizeChoice::Base::custom, 1, {30, 20}};
     frames(2);
@@ -90,7 +91,7 @@ TEST_F(Layout, ASizeThatIsChosenIsTakenAtOnce) {
     EXPECT_GT(pane(0).generation, before);
 }
 
-TEST_F(Layout, AtTheBeginningASizeThatFitsIsTakenAtOnce) {
+TEST_F(Layout, AtTheStartABetterSizeIsUsedAtOnce) {
     state().rendering.pace.spp_limit = 2;
     type(Key::r);
     wait_until([&] { return viewer.settled(2); });
@@ -98,8 +99,8 @@ TEST_F(Layout, AtTheBeginningASizeThatFitsIsTakenAtOnce) {
     EXPECT_FALSE(waits_for_another_size());
 }
 
-// A first pass may take a minute, and be nearly done.
-TEST_F(Layout, NoPanelRestartsEvenAFirstPass) {
+// A first pass can take a minute and be nearly complete.
+TEST_F(Layout, PanelsDoNotRestartAFirstPass) {
     state().rendering.paused = true; // before its first pass
     type(Key::r);
     frames(2);

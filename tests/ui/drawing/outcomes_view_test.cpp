@@ -1,4 +1,4 @@
-// How shifts end, pixel by pixel: the buffer's colours, its legend, and its numbers.
+// The buffer of shift outcomes: colours, legend and values.
 
 #include "tests/ui/drawing/panes_fixture.h"
 #include "ui/panes/pane_parts.h"
@@ -29,7 +29,7 @@ struct OutcomesView : Panes {
         const ImU32 c = outcome_colour(static_cast<ShiftOutcome>(outcome));
         return {c & 255, c >> 8 & 255, c >> 16 & 255};
     }
-    /// By the shares alone.
+    /// Returns the expected colour of a pixel: the colours of the outcomes, weighted by their fractions.
     glm::vec3 mean_colour(int index, int x, int y) {
         glm::vec3 sum(0);
         for (std::size_t i = 0; i < shift_outcome_count; ++i)
@@ -40,7 +40,7 @@ struct OutcomesView : Panes {
 
 TEST_F(OutcomesView, PixelsHaveTheMeanColourOfTheirShifts) {
     const ScreenPixels pixels = screen();
-    float least = 255, most = 0; // of green: they are not all alike
+    float least = 255, most = 0; // green channel; the pixels differ
     for (int index : {0, 1}) {
         for (int y = 2; y < 36; y += 5) {
             for (int x = 2; x < 48; x += 5) {
@@ -65,15 +65,15 @@ TEST_F(OutcomesView, LegendNamesTheColours) {
     EXPECT_LT(legend.max.x, picture.max.x);
     const ScreenPixels pixels = screen();
     for (std::size_t i = 0; i < shift_outcome_count; ++i) {
-        int spot = 0; // pixels of this colour
+        int spot = 0; // number of pixels of this colour
         for (float y = legend.min.y; y < legend.max.y; ++y)
             for (float x = legend.min.x; x < legend.max.x; ++x)
                 spot += glm::distance(colour(pixels, {x, y}), colour_of(i)) < 3;
         EXPECT_GT(spot, 20) << i;
     }
-    move_to(legend.center()); // explains them
+    move_to(legend.center()); // shows the tooltip
     EXPECT_TRUE(viewer.controls().tooltip_pending());
-    drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0}); // there is no range
+    drag({legend.max.x - 20, legend.max.y - 11}, {-30, 0}); // outcomes have no range to drag
     EXPECT_TRUE(state().display.ranges.empty());
 }
 
@@ -95,7 +95,7 @@ TEST_F(OutcomesView, LegendsOfAWipeDoNotOverlap) {
     save("outcomes-wipe.png");
 }
 
-TEST_F(OutcomesView, ValuesUnderTheMouseAreShares) {
+TEST_F(OutcomesView, ValuesUnderTheMouseAreFractions) {
     move_to(middle_of(1, 20, 12));
     for (int i : {0, 1}) {
         const std::string shares = outcome_shares(maps(i).counts(20, 12));
@@ -105,11 +105,11 @@ TEST_F(OutcomesView, ValuesUnderTheMouseAreShares) {
     }
 }
 
-/// Means of colours have no difference that says anything: it is of the shares that fail.
-TEST_F(OutcomesView, DifferencesAreOfTheShareThatFails) {
+/// Differences of mean colours have no meaning, so the difference shows the fraction of failed shifts.
+TEST_F(OutcomesView, DifferencesAreOfTheFailedFraction) {
     click("pane0.picture");
     type(Key::n);
-    state().display.tone.exposure = 10; // only the sign is left
+    state().display.tone.exposure = 10; // only the sign is visible
     frames(2);
     const Image<float> a = maps(0).failed(), b = maps(1).failed();
     const ScreenPixels pixels = screen();
@@ -134,7 +134,7 @@ TEST_F(OutcomesView, IsSavedInItsColours) {
     EXPECT_LT(glm::distance(colour(saved, {20, 12}), mean_colour(1, 20, 12)), 3);
 }
 
-TEST_F(OutcomesView, PathTracingHasNone) {
+TEST_F(OutcomesView, PathTracingHasNoOutcomes) {
     choose("pane0.method", "pt");
     wait_for_settled();
     EXPECT_TRUE(viewer.pictures().image(0).empty());

@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
+TEST(PaneStatus, ShowsMethodSamplesTimeAndRays) {
     ViewerState state;
     PaneState& pane = state.panes.emplace_back();
     pane.settings.render.method = Method::gpr;
@@ -60,11 +60,11 @@ TEST(PaneStatus, TellsMethodSamplesTimeAndRays) {
     EXPECT_TRUE(says("done"));
     pane.failed = true;
     EXPECT_TRUE(says("failed"));
-    pane.generation = 5; // and its first pass has never come
+    pane.generation = 5; // no pass of this request is complete
     EXPECT_EQ(status_text(state, 0), "G-PR   failed: see the messages (F2)");
 }
 
-TEST(PaneStatus, LabelTellsRawSamplesFromDenoisedOnes) {
+TEST(PaneStatus, LabelDistinguishesRawSamplesAndDenoisedPictures) {
     PaneSettings pane;
     const auto label = [&](Method method, Norm norm) {
         pane.render.method = method;
@@ -81,12 +81,12 @@ TEST(PaneStatus, LabelTellsRawSamplesFromDenoisedOnes) {
     EXPECT_EQ(label(Method::pt, Norm::smoothed), "denoised");
 }
 
-TEST(PaneStatus, PanesBeginWithTheDefaultsOfTheirMethods) {
+TEST(PaneStatus, PanesStartWithTheDefaultsOfTheirMethods) {
     for (const PaneSettings& pane : default_panes(4))
         EXPECT_EQ(applied_norm(pane), default_norm(has_gradients(pane.render.method)));
 }
 
-TEST(PaneStatus, TellsWhichPaneCatchesUp) {
+TEST(PaneStatus, NamesThePaneThatOthersWaitFor) {
     ViewerState state;
     state.scene = test::viewer_scene();
     state.panes.resize(3);
@@ -104,12 +104,12 @@ TEST(PaneStatus, TellsWhichPaneCatchesUp) {
     EXPECT_EQ(waiting_text(state, 1), "");
     EXPECT_EQ(waiting_text(state, 2), "equal time: waiting for pane 2 (190 of 599 s)");
     EXPECT_NE(status_text(state, 0).find("waiting for pane 2"), std::string::npos);
-    state.panes[1].generation = 8; // a new request: it has had nothing
+    state.panes[1].generation = 8; // a new request without samples
     EXPECT_EQ(waiting_text(state, 0), "equal time: waiting for pane 2 (0 of 600 s)");
     state.rendering.pace.equal = Pace::Equal::spp;
     had(1, 40, 190);
     EXPECT_EQ(waiting_text(state, 0), "equal samples: waiting for pane 2 (40 of 900 spp)");
-    state.rendering.pace.spp_limit = 40; // nobody waits for one that rests
+    state.rendering.pace.spp_limit = 40; // panes do not wait for a pane at its limit
     EXPECT_EQ(waiting_text(state, 0), "");
     state.rendering.pace.spp_limit = 0;
     state.panes[1].failed = true;

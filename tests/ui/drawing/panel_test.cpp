@@ -12,11 +12,11 @@
 namespace tessera::test {
 namespace {
 
-/// Drives every control with the mouse and looks at what it set.
+/// Drives each control with the mouse and checks the setting.
 struct PanelTest : testing::Test, ViewerHarness {
     PanelTest() {
         load_scene();
-        state().rendering.paused = true; // nothing but the input changes the state
+        state().rendering.paused = true; // only input changes the state
         frames(3);
     }
     const RenderSettings& render(int i) { return pane(i).settings.render; }
@@ -84,7 +84,7 @@ TEST_F(PanelTest, SlidersSetTheirOwnSettingInAllPanes) {
     check("norm");
 }
 
-TEST_F(PanelTest, SeldomChangedSettingsAreFoldedAway) {
+TEST_F(PanelTest, ExpertSettingsAreCollapsed) {
     state().layout.open_sections = Layout().open_sections;
     frames(2);
     EXPECT_FALSE(has("roulette_depth"));
@@ -107,7 +107,7 @@ TEST_F(PanelTest, LogSlidersReachSmallValuesInTheMiddle) {
     EXPECT_LT(render(0).rr_delta, 1.0f);
 }
 
-TEST_F(PanelTest, ValuesBeyondASlidersEndsStayUntilItIsMoved) {
+TEST_F(PanelTest, ValuesOutsideASlidersRangeStayUntilItMoves) {
     choose("roulette", "absolute");
     state().panes[0].settings.render.rr_delta = state().panes[1].settings.render.rr_delta = 200;
     frames(3);
@@ -118,10 +118,10 @@ TEST_F(PanelTest, ValuesBeyondASlidersEndsStayUntilItIsMoved) {
     EXPECT_LT(render(1).rr_delta, 200);
 }
 
-TEST_F(PanelTest, OnlySettingsThatMatterAreThere) {
+TEST_F(PanelTest, OnlySettingsWithAnEffectAreShown) {
     EXPECT_FALSE(has("rr_delta"));
     EXPECT_FALSE(has("pattern"));
-    choose("pane0.method", "pr"); // linked: what matters in any pane
+    choose("pane0.method", "pr"); // linked: settings with an effect in any pane
     EXPECT_TRUE(has("pattern"));
     choose("pattern", "rooks");
     EXPECT_EQ(render(0).pattern, Pattern::rooks);
@@ -135,7 +135,7 @@ TEST_F(PanelTest, OnlySettingsThatMatterAreThere) {
     EXPECT_TRUE(has("tile"));
 }
 
-TEST_F(PanelTest, UnlinkedPanesHaveTheirOwnSettings) {
+TEST_F(PanelTest, UnlinkedPanesHaveSeparateSettings) {
     choose("pane0.method", "pr");
     click_at("linked", 0.5f);
     EXPECT_FALSE(state().linked);
@@ -148,7 +148,7 @@ TEST_F(PanelTest, UnlinkedPanesHaveTheirOwnSettings) {
     click_at("tile", 0.01f);
     EXPECT_EQ(render(0).tile, 16);
     EXPECT_EQ(render(1).tile, 1);
-    click_at("linked", 0.5f); // linked again: the active pane's hold for all
+    click_at("linked", 0.5f); // linked again: all panes get the active pane's settings
     EXPECT_EQ(render(0).tile, 1);
     EXPECT_EQ(render(0).method, Method::pr);
 }
@@ -185,7 +185,7 @@ TEST_F(PanelTest, Buttons) {
     EXPECT_TRUE(state().camera.camera() == state().scene->camera());
 }
 
-TEST_F(PanelTest, MenuRunsActionsOfTheTable) {
+TEST_F(PanelTest, MenusRunActions) {
     click("menu Buffer");
     click("menu Buffer/Gradient dx");
     EXPECT_EQ(pane(0).settings.buffer, Buffer::dx);
@@ -199,7 +199,7 @@ TEST_F(PanelTest, MenuRunsActionsOfTheTable) {
     EXPECT_FALSE(state().layout.show_help);
 }
 
-TEST_F(PanelTest, TooltipAppearsAfterAWhile) {
+TEST_F(PanelTest, TooltipAppearsAfterADelay) {
     move_to(place("tile").center());
     EXPECT_TRUE(viewer.controls().tooltip_pending());
     EXPECT_LE(viewer.next_frame_in(), 0.1);
@@ -211,7 +211,7 @@ TEST_F(PanelTest, TooltipAppearsAfterAWhile) {
     save("tooltip.png");
 }
 
-TEST_F(PanelTest, PictureAnswersTheMouse) {
+TEST_F(PanelTest, MouseMovesTheCamera) {
     const glm::vec2 middle = place("pane0.picture").center();
     const Camera home = state().camera.camera();
     drag(middle, {60, 20});
@@ -236,7 +236,7 @@ TEST_F(PanelTest, PictureAnswersTheMouse) {
     EXPECT_GT(state().display.view.zoom(), 1.5f);
 }
 
-TEST_F(PanelTest, MouseOverThePanelLeavesTheCameraAlone) {
+TEST_F(PanelTest, MouseOverThePanelDoesNotMoveTheCamera) {
     const Camera home = state().camera.camera();
     move_to(place("tile").center());
     wheel(3);
@@ -251,7 +251,7 @@ TEST_F(PanelTest, KeysFlyAndRunActions) {
     EXPECT_EQ(viewer.next_frame_in(), 0);
     viewer.keyboard().release(Key::w);
     frames(2);
-    EXPECT_TRUE(wait_until([&] { return viewer.next_frame_in() > 1; })); // once the picture from there has come
+    EXPECT_TRUE(wait_until([&] { return viewer.next_frame_in() > 1; })); // after the picture of the new camera
     EXPECT_FALSE(state().camera.camera() == home);
     type(Key::home);
     EXPECT_TRUE(state().camera.camera() == home);

@@ -12,7 +12,7 @@
 
 namespace tessera::test {
 
-/// PT and G-PR at rest, their pictures of equal size.
+/// PT and G-PR at rest, with pictures of equal size.
 struct Panes : testing::Test, ViewerHarness {
     Panes() { rest(3); }
 
@@ -20,19 +20,19 @@ struct Panes : testing::Test, ViewerHarness {
         const std::uint8_t* p = pixels.at(static_cast<int>(at.x), static_cast<int>(at.y));
         return {p[0], p[1], p[2]};
     }
-    /// A point of a pane's picture, as shares of the pane.
+    /// Returns a point of a pane's picture, given as fractions of its area.
     glm::vec2 point(int index, float x, float y) const {
         const ControlRect rect = place("pane" + std::to_string(index) + ".picture");
         return glm::floor(rect.min + (rect.max - rect.min) * glm::vec2(x, y)) + 0.5f;
     }
-    /// The middle of a pixel of a pane's image.
+    /// Returns the centre of a pixel of a pane's image.
     glm::vec2 middle_of(int index, int x, int y) {
         const glm::ivec2 size = state().request_size();
         const Placement placement = state().display.view.place(size, pane(index).canvas_size);
         return place("pane" + std::to_string(index) + ".picture").min + placement.origin +
                (glm::vec2(x, y) + 0.5f) * placement.extent / glm::vec2(size);
     }
-    /// Mean distance of the colours in a column of one pane to those in another's.
+    /// Returns the mean colour distance between columns of two panes.
     float distance(int a, int b, float x, const ScreenPixels& pixels) const {
         float sum = 0;
         for (int i = 0; i < 20; ++i) {

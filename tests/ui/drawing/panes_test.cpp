@@ -1,4 +1,4 @@
-// Several panes: how many, compared with each other, and when they render.
+// Panes: number, comparison, and limits of rendering.
 
 #include "tests/ui/drawing/panes_fixture.h"
 #include "ui/gl/gui.h"
@@ -13,13 +13,13 @@
 namespace tessera::test {
 namespace {
 
-TEST_F(Panes, OneTwoAndFourByMenuAndKeys) {
+TEST_F(Panes, MenuAndKeysSetTheNumberOfPanes) {
     click("menu Panes");
     click("menu Panes/Four panes");
     ASSERT_EQ(state().panes.size(), 4u);
     wait_for_settled();
     EXPECT_EQ(pane(0).settings.render.method, Method::pt);
-    EXPECT_EQ(pane(1).settings.render.method, Method::pr); // methods that no pane had, as a table
+    EXPECT_EQ(pane(1).settings.render.method, Method::pr); // the methods that no pane has
     EXPECT_EQ(pane(2).settings.render.method, Method::gpt);
     EXPECT_EQ(pane(3).settings.render.method, Method::gpr);
     EXPECT_GT(place("pane2.picture").min.y, place("pane0.picture").max.y);
@@ -35,7 +35,7 @@ TEST_F(Panes, OneTwoAndFourByMenuAndKeys) {
     EXPECT_EQ(session.latest(3), nullptr);
     type(Key::g);
     ASSERT_EQ(state().panes.size(), 4u);
-    EXPECT_EQ(pane(2).settings.render.method, Method::pt); // as they were
+    EXPECT_EQ(pane(2).settings.render.method, Method::pt); // restored
     EXPECT_EQ(pane(3).settings.render.method, Method::pr);
     type(Key::g);
     EXPECT_EQ(state().panes.size(), 1u);
@@ -44,7 +44,7 @@ TEST_F(Panes, OneTwoAndFourByMenuAndKeys) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-// What the mouse does over the last pane, the first, which is drawn before it, shows in the same frame.
+// Input over the last pane takes effect in the first pane in the same frame, although that is drawn earlier.
 TEST_F(Panes, MoveTogetherWithinOneFrame) {
     const auto first_pane = [&] {
         const ScreenPixels pixels = screen();
@@ -68,7 +68,7 @@ TEST_F(Panes, MoveTogetherWithinOneFrame) {
     modifiers(false, false);
 }
 
-TEST_F(Panes, TheActivePaneStaysWhenOthersGo) {
+TEST_F(Panes, TheActivePaneStaysWhenOthersClose) {
     click("pane1.picture");
     type(Key::digit1, true);
     EXPECT_EQ(state().active_pane, 0);
@@ -77,7 +77,7 @@ TEST_F(Panes, TheActivePaneStaysWhenOthersGo) {
     EXPECT_EQ(pane(1).settings.render.method, Method::pt);
 }
 
-// What a pane has rendered goes with it, wherever it is shown then.
+// A pane keeps its samples when its position changes.
 TEST_F(Panes, TheActivePaneKeepsItsSamples) {
     type(Key::digit4, true);
     wait_for_settled();
@@ -88,15 +88,15 @@ TEST_F(Panes, TheActivePaneKeepsItsSamples) {
     EXPECT_EQ(pane(0).generation, before.generation);
     EXPECT_EQ(pane(0).snapshot->generation, before.generation);
     EXPECT_EQ(pane(0).snapshot->spp, 3);
-    EXPECT_EQ(session.latest(0), nullptr); // the place of a pane that is gone
+    EXPECT_EQ(session.latest(0), nullptr); // the slot of a closed pane
     EXPECT_NE(session.latest(before.slot), nullptr);
-    state().rendering.pace.spp_limit = 5; // and goes on
+    state().rendering.pace.spp_limit = 5; // the render continues
     EXPECT_TRUE(wait_until([&] { return pane(0).snapshot->spp == 5; }));
     EXPECT_EQ(pane(0).snapshot->generation, before.generation);
 }
 
-// Panes that ask for the same: nothing differs from what their places were sent before.
-TEST_F(Panes, PanesOfEqualSettingsAreNotMistakenForEachOther) {
+// Panes with equal requests do not differ from the last requests of their slots.
+TEST_F(Panes, PanesWithEqualSettingsGetTheirOwnPictures) {
     type(Key::digit4, true);
     for (PaneState& p : state().panes)
         p.settings.render.method = Method::gpr;
@@ -104,14 +104,14 @@ TEST_F(Panes, PanesOfEqualSettingsAreNotMistakenForEachOther) {
     click("pane3.picture");
     type(Key::digit2, true);
     ASSERT_EQ(state().active_pane, 1);
-    wait_for_settled();        // and not "starting" for ever
-    state().set_pane_count(1); // away and back between two frames
+    wait_for_settled();        // does not stay at "starting"
+    state().set_pane_count(1); // closed and reopened within one frame
     state().set_pane_count(2);
     wait_for_settled();
     EXPECT_NE(pane(0).slot, pane(1).slot);
 }
 
-TEST_F(Panes, OnlyTheActivePaneHasAllTheRoom) {
+TEST_F(Panes, AloneTheActivePaneFillsTheArea) {
     const float before = place("pane1.picture").max.x - place("pane1.picture").min.x;
     type(Key::o);
     EXPECT_FALSE(has("pane0.picture"));
@@ -123,19 +123,19 @@ TEST_F(Panes, OnlyTheActivePaneHasAllTheRoom) {
     EXPECT_TRUE(has("pane1.picture"));
 }
 
-TEST_F(Panes, WipeShowsBothAndItsLineIsDragged) {
+TEST_F(Panes, WipeShowsBothPicturesAndItsLineCanBeDragged) {
     click("pane0.picture");
     ASSERT_EQ(state().active_pane, 0);
     const ScreenPixels apart = screen();
-    EXPECT_GT(distance(0, 1, 0.7f, apart), 5); // noise against none
+    EXPECT_GT(distance(0, 1, 0.7f, apart), 5); // the pictures differ
     type(Key::v);
     EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::wipe);
     const ScreenPixels wiped = screen();
     save("wipe.png");
-    EXPECT_LT(distance(0, 1, 0.7f, wiped), 1); // the other's picture to the right
+    EXPECT_LT(distance(0, 1, 0.7f, wiped), 1); // the other pane's picture on the right
     EXPECT_GT(distance(0, 1, 0.3f, wiped), 5);
 
-    // The zone is wider than the line: 12 units beside it still take hold.
+    // The line can be grabbed 12 units beside it.
     const auto camera = state().camera.position();
     const ControlRect rect = place("pane0.picture");
     const float width = rect.max.x - rect.min.x;
@@ -145,17 +145,17 @@ TEST_F(Panes, WipeShowsBothAndItsLineIsDragged) {
     EXPECT_GT(distance(0, 1, 0.7f, screen()), 5);
     drag(point(0, 0.8f, 0.6f), {-2 * width, 0});
     EXPECT_EQ(state().layout.wipe, 0);
-    drag(point(0, 0.4f, 0.6f), {20, 0}); // elsewhere the camera moves
+    drag(point(0, 0.4f, 0.6f), {20, 0}); // elsewhere, a drag moves the camera
     EXPECT_NE(state().camera.position(), camera);
     type(Key::v);
     EXPECT_EQ(pane(0).settings.comparison.kind, Comparison::Kind::off);
 }
 
-TEST_F(Panes, AWayToThePressTurnsNoCamera) {
+TEST_F(Panes, MotionBeforeThePressMovesNoCamera) {
     move_to(point(1, 0.1f, 0.3f));
     const glm::vec3 before = state().camera.position();
     const glm::vec2 to = point(1, 0.6f, 0.6f);
-    send_mouse_position({to.x, to.y}); // in the same slow frame
+    send_mouse_position({to.x, to.y}); // in the same, slow frame
     press();
     release();
     EXPECT_EQ(state().camera.position(), before);
@@ -163,7 +163,7 @@ TEST_F(Panes, AWayToThePressTurnsNoCamera) {
     EXPECT_NE(state().camera.position(), before);
 }
 
-TEST_F(Panes, FlickerShowsTheOtherWhileTheKeyIsHeld) {
+TEST_F(Panes, FlickerShowsTheOtherPictureWhileItsKeyIsHeld) {
     click("pane0.picture");
     const ScreenPixels before = screen();
     viewer.keyboard().press(Key::b, Key::b, false, false);
@@ -213,7 +213,7 @@ TEST_F(Panes, AnyTwoPanesCanBeCompared) {
     EXPECT_EQ(state().compared_with(1), 3);
     const ScreenPixels pixels = screen();
     EXPECT_LT(distance(1, 3, 0.7f, pixels), 1);
-    type(Key::digit2, true); // that pane is no more
+    type(Key::digit2, true); // the compared pane is closed
     EXPECT_EQ(state().compared_with(1), 0);
 }
 

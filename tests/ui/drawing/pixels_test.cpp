@@ -1,4 +1,4 @@
-// Looking at single pixels: values under the mouse, numbers, magnifier, tone, ranges, marks.
+// Single pixels: values under the mouse, numbers, magnifier, tone, ranges, marks.
 
 #include "tests/ui/drawing/panes_fixture.h"
 #include "ui/panes/pane_parts.h"
@@ -39,12 +39,12 @@ TEST_F(Pixels, ValuesUnderTheMouseInAllPanes) {
     choose("pane1.buffer", "survival");
     move_to(middle_of(0, 20, 20));
     EXPECT_NE(cursor_text(state(), images(), 1).find(" %"), std::string::npos);
-    move_to({5, 5}); // over the menu
+    move_to({5, 5}); // over the menu bar
     EXPECT_EQ(cursor_text(state(), images(), 0), "");
     EXPECT_FALSE(has("pane0.value"));
 }
 
-TEST_F(Pixels, DifferencesAreReadAsDifferences) {
+TEST_F(Pixels, ValuesOfADifferenceAreDifferences) {
     click("pane0.picture");
     type(Key::n);
     move_to(middle_of(0, 20, 20));
@@ -54,10 +54,10 @@ TEST_F(Pixels, DifferencesAreReadAsDifferences) {
     EXPECT_EQ(*value, expected);
 }
 
-TEST_F(Pixels, LargePixelsHoldTheirNumbers) {
+TEST_F(Pixels, LargePixelsShowTheirValues) {
     move_to(middle_of(0, 20, 20));
     modifiers(true, false);
-    const auto white = [&] { // of the numbers' glyphs
+    const auto white = [&] { // counts white pixels of digits
         const ScreenPixels pixels = screen();
         const ControlRect rect = place("pane0.picture");
         int count = 0;
@@ -71,7 +71,7 @@ TEST_F(Pixels, LargePixelsHoldTheirNumbers) {
     modifiers(false, false);
     save("numbers.png");
     EXPECT_GT(white(), 200);
-    choose("pane0.buffer", "dx"); // path tracing has none: nothing to write
+    choose("pane0.buffer", "dx"); // PT has no gradients, so there are no values
     frames(2);
     EXPECT_EQ(white(), 0);
 }
@@ -85,8 +85,8 @@ TEST(PixelNumbers, FitIntoSevenCharacters) {
     EXPECT_EQ(short_number(-std::numeric_limits<float>::infinity()), "-inf");
 }
 
-// A quarter of the size, but the pixels are those of the picture asked for.
-TEST_F(Pixels, AFirstLookHasThePixelsOfTheWhole) {
+// A preview has a quarter of the size, but pixel coordinates are those of the full picture.
+TEST_F(Pixels, APreviewHasThePixelCoordinatesOfTheFullPicture) {
     auto coarse = std::make_shared<Snapshot>(*pane(1).snapshot);
     coarse->divisor = 4;
     coarse->reconstruction = nullptr;
@@ -99,7 +99,7 @@ TEST_F(Pixels, AFirstLookHasThePixelsOfTheWhole) {
     EXPECT_EQ(cursor_text(state(), looks, 1).substr(0, 8), "(24, 18)");
 }
 
-TEST_F(Pixels, MagnifierEnlargesAboutTheMouse) {
+TEST_F(Pixels, MagnifierEnlargesAroundTheMouse) {
     type(Key::l);
     EXPECT_TRUE(state().display.magnifier);
     const glm::vec2 at = middle_of(0, 12, 18);
@@ -109,16 +109,16 @@ TEST_F(Pixels, MagnifierEnlargesAboutTheMouse) {
     type(Key::l);
     move_to(at);
     const ScreenPixels plain = screen();
-    // A pixel of the image is at least 15 units wide in it, and the one at the mouse stays where it is.
+    // Image pixels are at least 15 units wide in the magnifier, and the pixel under the mouse does not move.
     EXPECT_LT(glm::distance(colour(pixels, at), colour(plain, at)), 2);
     EXPECT_LT(glm::distance(colour(pixels, at + glm::vec2(5, 5)), colour(pixels, at)), 2);
     EXPECT_NE(pixels.rgb, plain.rgb);
-    // In the other pane, too.
+    // The other pane has a magnifier, too.
     const glm::vec2 other = middle_of(1, 12, 18);
     EXPECT_LT(glm::distance(colour(pixels, other + glm::vec2(4, 4)), colour(pixels, other)), 2);
 }
 
-TEST_F(Pixels, LegendsAreDraggedAndGoBack) {
+TEST_F(Pixels, LegendsAreDraggedAndReset) {
     choose("pane1.buffer", "reused");
     const ControlRect legend = place("pane1.legend");
     const ValueRange before = viewer.pictures().image(1).range();
@@ -133,7 +133,7 @@ TEST_F(Pixels, LegendsAreDraggedAndGoBack) {
     drag({legend.min.x + 20, bar.y}, {30, 0});
     EXPECT_GT(state().display.ranges.at(Buffer::reused).low, 0);
     save("legend-range.png");
-    frame(1); // no double click with the last
+    frame(1); // prevents a double click with the last click
     click(glm::vec2(legend.min.x + 20, bar.y));
     click(glm::vec2(legend.min.x + 20, bar.y));
     EXPECT_EQ(state().display.ranges.count(Buffer::reused), 0u);
@@ -151,7 +151,7 @@ TEST_F(Pixels, ToneCurves) {
     EXPECT_NE(brightness("pane0.picture"), before);
 }
 
-TEST(ValueRange, SharesAndValuesAreInverse) {
+TEST(ValueRange, FractionsAndValuesAreInverse) {
     for (const ValueRange& range :
          {ValueRange{0, 5, false}, ValueRange{2, 3, false}, ValueRange{1e-4f, 10, true}}) {
         for (float share : {0.0f, 0.25f, 1.0f})

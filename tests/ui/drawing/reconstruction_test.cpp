@@ -1,4 +1,4 @@
-// Reconstructions that take long: told, and given up.
+// Long reconstructions: progress and cancellation.
 
 #include "tests/ui/viewer_harness.h"
 
@@ -15,7 +15,7 @@ bool has_message(const ViewerState& state, const std::string& part) {
                        [&](const Message& m) { return m.text.find(part) != std::string::npos; });
 }
 
-TEST(LongReconstruction, IsGivenUpByEscape) {
+TEST(LongReconstruction, IsCancelledByEscape) {
     ViewerOptions options;
     options.panes.resize(1);
     options.panes[0].render.method = Method::gpt;
@@ -30,15 +30,15 @@ TEST(LongReconstruction, IsGivenUpByEscape) {
     const auto before = h.pane(0).snapshot->reconstruction;
     h.state().panes[0].settings.reconstruction.norm = Norm::l1; // takes half a second on an idle machine
     ASSERT_TRUE(h.wait_until([&] { return h.pane(0).reconstructing.has_value(); }));
-    EXPECT_LE(h.viewer.next_frame_in(), 0.1); // the seconds go on
+    EXPECT_LE(h.viewer.next_frame_in(), 0.1); // the elapsed time is updated
     h.type(Key::f1);
-    h.type(Key::escape); // closes the help alone
-    EXPECT_FALSE(has_message(h.state(), "given up"));
+    h.type(Key::escape); // only closes the help
+    EXPECT_FALSE(has_message(h.state(), "was cancelled"));
     h.type(Key::escape);
-    EXPECT_TRUE(has_message(h.state(), "G-PT: the reconstruction of pass 1 was given up."));
+    EXPECT_TRUE(has_message(h.state(), "G-PT: the reconstruction of pass 1 was cancelled."));
     ASSERT_TRUE(h.wait_until([&] { return !h.pane(0).reconstructing; }));
     h.frames(5);
-    EXPECT_FALSE(h.pane(0).reconstructing); // nor is it begun again
+    EXPECT_FALSE(h.pane(0).reconstructing); // and it does not start again
     EXPECT_EQ(h.pane(0).snapshot->reconstruction, before);
     h.state().panes[0].settings.reconstruction.norm = Norm::none;
     EXPECT_TRUE(h.wait_until([&] { return h.viewer.settled(1); }));

@@ -1,4 +1,4 @@
-// Samples that were not finite: told once a request, and opened in the inspector as they were.
+// Invalid samples: reported once per request, and opened in the path inspector.
 
 #include "render/inspect/inspection.h"
 #include "render/scene/scene.h"
@@ -17,7 +17,7 @@
 namespace tessera::test {
 namespace {
 
-/// A room with a sphere of which no light is finite.
+/// Returns a room with a sphere whose radiance is not finite.
 std::shared_ptr<const Scene> broken_scene() {
     SceneBuilder room;
     const int white = room.diffuse(Rgb(0.75f));
@@ -28,7 +28,7 @@ std::shared_ptr<const Scene> broken_scene() {
     return room.build();
 }
 
-TEST(RefusedSamples, AreReportedOnceARequest) {
+TEST(InvalidSamples, AreReportedOncePerRequest) {
     ViewerHarness h;
     h.state().rendering.pace.spp_limit = 3;
     h.state().layout.show_statistics = true;
@@ -54,7 +54,7 @@ TEST(RefusedSamples, AreReportedOnceARequest) {
     EXPECT_EQ(told("G-PR"), 2);
 }
 
-TEST(RefusedSamples, OpenAsTheyWere) {
+TEST(InvalidSamples, OpenWithTheirRender) {
     ViewerHarness h;
     h.state().rendering.pace.spp_limit = 2;
     h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
@@ -62,7 +62,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     const Message gpr = *std::find_if(h.state().messages.begin(), h.state().messages.end(),
                                       [](const Message& m) { return m.text.rfind("G-PR", 0) == 0; });
     const Camera camera = h.state().camera.camera();
-    // Another method and another view, of the same scene: the message stays.
+    // The message stays with another method and view of the same scene.
     h.state().panes[1].settings.render.method = Method::pr;
     h.state().panes[1].settings.render.seed = 5;
     h.state().camera.dolly(-3);
@@ -83,7 +83,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     h.frames(3);
     h.save("refused-earlier.png");
 
-    // And when the scene is another.
+    // The inspector keeps the sample after a change of scene.
     h.viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     h.wait_until([&] { return h.viewer.settled(2); });
     h.frames(5);
@@ -91,7 +91,7 @@ TEST(RefusedSamples, OpenAsTheyWere) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST(RefusedSamples, OpenOneAfterTheOther) {
+TEST(InvalidSamples, OpenInTurn) {
     ViewerHarness h;
     h.state().rendering.pace.spp_limit = 1;
     h.viewer.load("broken", [](SceneNotes&, LoadProgress&) { return broken_scene(); });
@@ -100,7 +100,7 @@ TEST(RefusedSamples, OpenOneAfterTheOther) {
     auto& samples = h.state().messages[0].samples;
     ASSERT_EQ(samples.size(), FirstRefused::most);
     samples.resize(3);
-    for (const std::size_t i : {0u, 1u, 2u, 0u}) { // and round again
+    for (const std::size_t i : {0u, 1u, 2u, 0u}) { // and the first again
         h.state().layout.show_messages = true;
         h.frames(2);
         const SampleChoice sample = h.state().messages[0].samples[i];
@@ -115,7 +115,7 @@ TEST(RefusedSamples, OpenOneAfterTheOther) {
     }
 }
 
-TEST(RefusedSamples, OfAReferenceOpen) {
+TEST(InvalidSamples, OfAReferenceCanBeOpened) {
     const CurrentFolder folder;
     ViewerHarness h;
     h.state().rendering.pace.spp_limit = 1;
@@ -123,7 +123,7 @@ TEST(RefusedSamples, OfAReferenceOpen) {
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().reference_making.spp = 2;
     h.state().wishes.make_reference = true;
-    const auto told = [&] { return h.state().messages.size() > 4; }; // of both halves, and the end
+    const auto told = [&] { return h.state().messages.size() > 4; }; // two for the halves, and the final one
     ASSERT_TRUE(h.wait_until(told));
     h.state().messages.erase(h.state().messages.begin(), h.state().messages.begin() + 2);
     const Message& second = h.state().messages[1];
@@ -137,7 +137,7 @@ TEST(RefusedSamples, OfAReferenceOpen) {
     EXPECT_EQ(h.state().inspector.sample->origin->settings.seed, 1002u);
 }
 
-TEST(RefusedSamples, OfASceneThatIsGoneKeepNothingOfIt) {
+TEST(InvalidSamples, OfAReplacedSceneDoNotKeepIt) {
     ViewerState state;
     state.scene = viewer_scene();
     Counters counters;

@@ -1,4 +1,4 @@
-// Panes whose settings make the same samples share one render, of which each has a reconstruction of its own.
+// Panes with equal render settings share one render, which each reconstructs itself.
 
 #include "tests/ui/viewer_harness.h"
 
@@ -28,13 +28,13 @@ struct SharedSamples : testing::Test, ViewerHarness {
     Norm norm(int i) { return pane(i).snapshot->reconstructed_with.norm; }
     void settle(int spp) {
         state().rendering.pace.spp_limit = spp;
-        frames(2); // in which changes take effect
+        frames(2); // changes take effect
         wait_until([&] { return viewer.settled(spp); });
         frames(3);
     }
 };
 
-TEST_F(SharedSamples, NormsOfOneRender) {
+TEST_F(SharedSamples, PanesWithDifferentNormsShareARender) {
     EXPECT_TRUE(shares(0, 1));
     EXPECT_EQ(norm(0), Norm::l2);
     EXPECT_EQ(norm(1), Norm::l1);
@@ -49,13 +49,13 @@ TEST_F(SharedSamples, NormsOfOneRender) {
     EXPECT_TRUE(shares(0, 1)) << "after the camera has moved";
 }
 
-TEST_F(SharedSamples, TheOtherKeepsThemWhenWhoRendersGoes) {
+TEST_F(SharedSamples, TheOtherPaneKeepsThemWhenTheRenderingPaneCloses) {
     const std::uint64_t generation = pane(1).generation;
     const auto images = pane(1).snapshot->images;
     state().panes[0].settings.render.tile = 3;
     settle(4);
     EXPECT_EQ(pane(1).generation, generation);
-    EXPECT_EQ(pane(1).snapshot->images, images) << "nothing was rendered again";
+    EXPECT_EQ(pane(1).snapshot->images, images) << "the samples are kept";
     EXPECT_EQ(norm(1), Norm::l1);
     EXPECT_NE(pane(0).generation, generation);
     EXPECT_EQ(pane(0).snapshot->settings.tile, 3);
@@ -71,7 +71,7 @@ TEST_F(SharedSamples, TheOtherKeepsThemWhenWhoRendersGoes) {
     EXPECT_EQ(pane(0).snapshot->images, images);
 }
 
-TEST_F(SharedSamples, ReconstructionsBesideEachOtherInTwoClicks) {
+TEST_F(SharedSamples, TwoClicksShowReconstructionsSideBySide) {
     state().active_pane = 1;
     const std::uint64_t generation = pane(1).generation;
     click("menu Panes");
@@ -84,7 +84,7 @@ TEST_F(SharedSamples, ReconstructionsBesideEachOtherInTwoClicks) {
         EXPECT_TRUE(shares(0, i)) << i;
         EXPECT_EQ(norm(i), norms[i]) << i;
     }
-    EXPECT_EQ(pane(3).generation, generation) << "the samples that were there";
+    EXPECT_EQ(pane(3).generation, generation) << "the same samples";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// The slow motion: the base paths of one tile arrive one after the other over the active pane's picture.
+// The slow motion shows the base paths of one tile in turn, over the active pane's picture.
 
 #include "render/inspect/inspection.h"
 #include "tests/ui/viewer_harness.h"
@@ -54,7 +54,7 @@ TEST_F(SlowMotionView, ShowsATileOfTheActivePaneLarge) {
     EXPECT_GT(state().display.view.zoom(), 2);
     const ControlRect picture = place("pane1.picture");
     for (const InspectedSet& set : slow().tile->sets)
-        for (const glm::ivec2 p : set.pixels) { // nothing of it lies outside
+        for (const glm::ivec2 p : set.pixels) { // all pixels are visible
             EXPECT_GT(middle(p).x, picture.min.x);
             EXPECT_LT(middle(p).x, picture.max.x);
             EXPECT_LT(middle(p).y, picture.max.y);
@@ -68,12 +68,12 @@ TEST_F(SlowMotionView, ShowsATileOfTheActivePaneLarge) {
     EXPECT_EQ(screen().rgb, untouched.rgb);
 }
 
-TEST_F(SlowMotionView, GoesStepByStepAndFillsThePixels) {
+TEST_F(SlowMotionView, StepsFillThePixels) {
     state().panes[1].settings.render.roulette = RouletteKind::none;
     wait_until([&] { return viewer.settled(3); });
     open();
     EXPECT_EQ(slow().current, 0);
-    character('>'); // the first arrives
+    character('>'); // shows the first base path
     EXPECT_EQ(slow().current, 0);
     EXPECT_EQ(slow().arrived, 1);
     const ScreenPixels first = screen();
@@ -85,7 +85,7 @@ TEST_F(SlowMotionView, GoesStepByStepAndFillsThePixels) {
     EXPECT_EQ(slow().current, steps);
     const InspectedSet& set = slow().set();
     save("slow-motion-last.png");
-    // The set's first pixel has the colour of all that it has got, beside the numbers and arrows.
+    // The set's first pixel shows its accumulated colour beside the numbers and arrows.
     const Rgb expected = 255.0f * displayed(set.radiance(0, set.size()), state().display.tone);
     const float unit = middle({1, 0}).x - middle({0, 0}).x;
     const glm::vec3 seen = colour(screen(), middle(set.pixels[0]) + glm::vec2(-0.38f, -0.02f) * unit);
@@ -111,7 +111,7 @@ TEST_F(SlowMotionView, DrawsArrowsInTheColoursOfTheOutcomes) {
         const InspectedShift& s = set.shift(0, m);
         if (!s.is_tried)
             continue;
-        // The mark lies within the pixel's edge.
+        // The mark lies inside the pixel.
         const float unit = middle({1, 0}).x - middle({0, 0}).x;
         const glm::vec3 wanted(outcome_colour(s) & 255, outcome_colour(s) >> 8 & 255,
                                outcome_colour(s) >> 16 & 255);
@@ -126,11 +126,11 @@ TEST_F(SlowMotionView, DrawsArrowsInTheColoursOfTheOutcomes) {
     EXPECT_GT(looked, 0);
 }
 
-TEST_F(SlowMotionView, OneKeyFindsTheExposureOfTheTile) {
+TEST_F(SlowMotionView, AutomaticExposureFitsTheTile) {
     open();
-    slow().step(slow().tile->base_count()); // all have arrived
+    slow().step(slow().tile->base_count()); // all base paths are shown
     frames(2);
-    const auto tile_brightness = [&] { // of the pixels' upper left corners, where no arrow or number is
+    const auto tile_brightness = [&] { // of the pixels' upper left corners, which have no arrows or numbers
         const ScreenPixels pixels = screen();
         const float unit = middle({1, 0}).x - middle({0, 0}).x;
         double sum = 0;
@@ -152,21 +152,21 @@ TEST_F(SlowMotionView, OneKeyFindsTheExposureOfTheTile) {
     frames(2);
     type(Key::f6);
     EXPECT_FLOAT_EQ(state().display.tone.exposure, found);
-    type(Key::j); // of the picture again
+    type(Key::j); // the picture is shown again
     frames(2);
     type(Key::f6);
     frames(2);
     EXPECT_NE(state().display.tone.exposure, found);
 }
 
-TEST_F(SlowMotionView, PlaysHoldsAndTakesTheNextTile) {
+TEST_F(SlowMotionView, PlaysPausesAndContinuesWithTheNextTile) {
     open(false);
     slow().speed = 20;
     ASSERT_TRUE(wait_until([&] { return slow().current > 2; }));
     EXPECT_EQ(viewer.next_frame_in(), 0);
     type(Key::space, false, true);
     EXPECT_TRUE(slow().held);
-    EXPECT_GT(viewer.next_frame_in(), 1e6); // nothing moves, so nothing is drawn
+    EXPECT_GT(viewer.next_frame_in(), 1e6); // nothing moves, so no frame is due
     const int held_at = slow().current;
     frames(10);
     EXPECT_EQ(slow().current, held_at);
@@ -180,7 +180,7 @@ TEST_F(SlowMotionView, PlaysHoldsAndTakesTheNextTile) {
     ASSERT_TRUE(wait_until([&] { return slow().shows_choice() && slow().tile->tile.x0 > tile->tile.x1; }));
 }
 
-TEST_F(SlowMotionView, AClickChoosesTheTileAndTheActivePaneDecides) {
+TEST_F(SlowMotionView, AClickChoosesTheTileInTheActivePane) {
     open();
     const auto camera = state().camera.camera();
     const auto tile = slow().tile;
@@ -194,16 +194,16 @@ TEST_F(SlowMotionView, AClickChoosesTheTileAndTheActivePaneDecides) {
     EXPECT_EQ(slow().tile->base_count(), 1);
     frames(3);
     save("slow-motion-pt.png");
-    type(Key::i); // the inspector takes over
+    type(Key::i); // the inspector replaces the slow motion
     EXPECT_FALSE(slow().active);
     EXPECT_TRUE(has("inspector.direction"));
     EXPECT_FALSE(has("slow.step"));
 }
 
-// The picture moves to the tile that was found, and so lies elsewhere under the mouse.
-TEST_F(SlowMotionView, AHeldButtonChoosesNoOther) {
+// The picture moves to the chosen tile, so another pixel lies under the mouse.
+TEST_F(SlowMotionView, AHeldButtonChoosesNoOtherTile) {
     open();
-    type(Key::f); // the whole picture
+    type(Key::f); // fits the picture
     const glm::ivec2 chosen(40, 6);
     move_to(middle(chosen));
     press();
@@ -219,7 +219,7 @@ TEST_F(SlowMotionView, AHeldButtonChoosesNoOther) {
     EXPECT_EQ(slow().sample->pixel, chosen);
 }
 
-TEST_F(SlowMotionView, GoesOnInASmallerPicture) {
+TEST_F(SlowMotionView, ContinuesInASmallerPicture) {
     open(false);
     slow().start({1, {47, 35}, {}});
     ASSERT_TRUE(wait_until([&] { return slow().shows_choice(); }));
@@ -232,7 +232,7 @@ TEST_F(SlowMotionView, GoesOnInASmallerPicture) {
     EXPECT_TRUE(slow().is_playing());
 }
 
-TEST_F(SlowMotionView, LeavesAPictureWhereItWasPutMeanwhile) {
+TEST_F(SlowMotionView, KeepsAViewThatTheUserHasSetMeanwhile) {
     state().display.view = ImageView(2, {0.3f, 0.3f});
     open();
     type(Key::f);
@@ -248,16 +248,16 @@ TEST_F(SlowMotionView, LeavesAPictureWhereItWasPutMeanwhile) {
     EXPECT_TRUE(state().display.view == ImageView());
 }
 
-TEST_F(SlowMotionView, KeepsToItsPaneWhereverThatIsShown) {
+TEST_F(SlowMotionView, StaysWithItsPane) {
     open();
     const auto tile = slow().tile;
-    type(Key::digit1, true); // the second pane is now the first
+    type(Key::digit1, true); // the second pane becomes the first
     frames(10);
     EXPECT_EQ(slow().tile, tile);
     EXPECT_TRUE(shows_slow_motion(0, state()));
 }
 
-TEST_F(SlowMotionView, StandsChangesOfAllKinds) {
+TEST_F(SlowMotionView, SurvivesChangesOfAllKinds) {
     open(false);
     slow().speed = 60;
     for (const Method method : {Method::pr, Method::gpt, Method::gpr}) {

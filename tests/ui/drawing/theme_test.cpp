@@ -6,7 +6,7 @@
 namespace tessera::test {
 namespace {
 
-TEST(Look, TextGrowsByKeysUpToThreeHundredPercent) {
+TEST(TextScaleAndTheme, KeysScaleTextUpToThreeHundredPercent) {
     ViewerHarness h({1920, 1200});
     h.frames(2);
     const float before = h.place("tile").max.y - h.place("tile").min.y;
@@ -21,20 +21,20 @@ TEST(Look, TextGrowsByKeysUpToThreeHundredPercent) {
     EXPECT_EQ(h.state().layout.ui_scale(), 1);
 }
 
-TEST(Look, TextIsAsMuchLargerOnAnotherDisplay) {
+TEST(TextScaleAndTheme, TextScaleIsRelativeToTheDisplay) {
     ViewerHarness h({1920, 1200}, 1.5f);
     h.frames(2);
     EXPECT_EQ(h.state().layout.ui_scale(), 1.5f);
     h.type(Key::up, true);
     EXPECT_EQ(h.state().layout.ui_scale(), 1.75f);
-    h.scale_ = 1; // the window is moved there
+    h.scale_ = 1; // the window moves to another display
     h.frames(2);
     EXPECT_NEAR(h.state().layout.ui_scale(), 1.75f / 1.5f, 1e-5f);
     h.type(Key::digit0, true);
     EXPECT_EQ(h.state().layout.ui_scale(), 1);
 }
 
-TEST(Look, ThemesAreDarkAndLight) {
+TEST(TextScaleAndTheme, ThemesAreDarkAndLight) {
     ViewerHarness h;
     h.load_scene();
     h.state().rendering.paused = true;
@@ -51,7 +51,7 @@ TEST(Look, ThemesAreDarkAndLight) {
     h.frames(2);
     EXPECT_EQ(h.state().layout.theme, Theme::light);
     EXPECT_GT(lightness_of(panel), 230);
-    EXPECT_EQ(h.place("pane1.picture"), picture);          // the same places,
+    EXPECT_EQ(h.place("pane1.picture"), picture);          // the same positions
     EXPECT_NEAR(h.brightness("pane1.picture"), before, 1); // and the same pictures
     h.state().layout.show_statistics = true;
     h.frames(3);

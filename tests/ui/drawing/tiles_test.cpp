@@ -1,4 +1,4 @@
-// The overlay of tiles: it lies where the newest pass had its tiles, and in no image.
+// The overlay of tiles: it shows the tiles of the newest pass, and does not change images.
 
 #include "render/estimator/tile_grid.h"
 #include "tests/ui/viewer_harness.h"
@@ -35,7 +35,7 @@ struct Tiles : testing::Test, ViewerHarness {
     }
 };
 
-TEST_F(Tiles, LiesWhereTheNewestPassHadItsTiles) {
+TEST_F(Tiles, ShowsTheTilesOfTheNewestPass) {
     const ScreenPixels before = screen();
     const RgbImage image = viewer.pictures().image(1).pixels();
     type(Key::x);
@@ -45,7 +45,7 @@ TEST_F(Tiles, LiesWhereTheNewestPassHadItsTiles) {
     const Snapshot& snapshot = *pane(1).snapshot;
     ASSERT_TRUE(snapshot.learned);
     const TileGrid grid({48, 36}, snapshot.settings, *snapshot.learned, snapshot.spp - 1);
-    // In the middle of pixels that are cut by no line nothing has changed; on the lines it has.
+    // Pixels change on the lines, but not in the middle of pixels without a line.
     const PixelRect tile = grid.tile_at({20, 16});
     const glm::vec2 a = corner(1, {tile.x0, tile.y0}), b = corner(1, {tile.x0 + 1, tile.y0 + 1});
     EXPECT_GT(changed(before, after, {a.x - 1, a.y + 2}, {a.x + 2, b.y - 2}), 0);
@@ -69,7 +69,7 @@ TEST_F(Tiles, MarksTheSetOfThePixelUnderTheMouse) {
     const ScreenPixels after = screen();
     save("tiles-set.png");
     const auto middle = [&](int x, int y) { return (corner(1, {x, y}) + corner(1, {x + 1, y + 1})) * 0.5f; };
-    // Its own pixels turn toward green, the border toward orange, others stay.
+    // The pixels of the set become greener, its border more orange, and others stay.
     const glm::vec3 inner = colour(after, middle(split.x0, split.y0)) - colour(before, middle(split.x0, split.y0));
     const glm::vec3 border =
         colour(after, middle(split.x1, split.y0)) - colour(before, middle(split.x1, split.y0));
@@ -79,14 +79,13 @@ TEST_F(Tiles, MarksTheSetOfThePixelUnderTheMouse) {
     EXPECT_EQ(colour(after, outside), colour(before, outside));
 }
 
-/// Pixels that share their paths have one colour, those of another pattern another.
-TEST_F(Tiles, RooksOfAPatternHaveOneColour) {
+/// Pixels of one sampling set have the same colour, and other sets have other colours.
+TEST_F(Tiles, EachRooksPatternHasOneColour) {
     state().panes[1].settings.render.method = Method::pr;
     state().panes[1].settings.render.pattern = Pattern::rooks;
     state().panes[1].settings.render.tile = 3;
-    state().panes[1].settings.buffer = Buffer::survival; // false colours
-    state().display.ranges[Buffer::survival] = {2, 3,
-                                                false}; // of which there is but the lowest: all pixels are alike
+    state().panes[1].settings.buffer = Buffer::survival;      // false colours
+    state().display.ranges[Buffer::survival] = {2, 3, false}; // a range that gives all pixels the lowest colour
     state().set_view(ImageView(4, {0.5f, 0.5f}));
     frames(2);
     wait_until([&] { return viewer.settled(3); });
@@ -127,7 +126,7 @@ TEST_F(Tiles, RooksAndSmallTilesAndZoom) {
     save("tiles-rooks-zoomed.png");
     state().panes[1].settings.render.tile = 1;
     wait_until([&] { return viewer.settled(3); });
-    resize({60, 40}); // hardly a pane
+    resize({60, 40}); // almost no space for a pane
     frames(3);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }

@@ -46,7 +46,7 @@ const Action& action(const std::string& name) {
     throw std::runtime_error("no action " + name);
 }
 
-TEST(Actions, EveryBufferIsShownByOne) {
+TEST(Actions, EachBufferHasAnAction) {
     for (const Buffer buffer : all_buffers) {
         ViewerState state = two_panes();
         action(std::string(long_name(buffer))).run(state);
@@ -55,7 +55,7 @@ TEST(Actions, EveryBufferIsShownByOne) {
     }
 }
 
-TEST(Actions, EveryOneHasNameHelpAndItsOwnShortcut) {
+TEST(Actions, EachHasANameHelpAndAUniqueShortcut) {
     std::set<std::string> shortcuts, names;
     for (const Action& a : actions()) {
         EXPECT_TRUE(names.insert(a.name).second) << a.name;
@@ -76,7 +76,7 @@ TEST(Actions, NoShortcutIsAFlyingKey) {
     }
 }
 
-TEST(Actions, EscapeGivesALoadUpUnlessItEndsATyping) {
+TEST(Actions, EscapeCancelsALoadUnlessItEndsTextEntry) {
     ViewerState state = two_panes();
     state.scene_info.loading = "a scene";
     type(state, key(Key::escape), true);
@@ -85,7 +85,7 @@ TEST(Actions, EscapeGivesALoadUpUnlessItEndsATyping) {
     EXPECT_TRUE(state.wishes.cancel_scene);
 }
 
-TEST(Actions, WhatIsSeldomWantedIsInTheListOfCommandsAlone) {
+TEST(Actions, RareActionsAreInTheCommandPaletteOnly) {
     std::size_t in_menus = 0;
     for (const Action& a : actions()) {
         in_menus += is_in_menu(a) && std::string_view(a.menu) == "Buffer";
@@ -97,12 +97,12 @@ TEST(Actions, WhatIsSeldomWantedIsInTheListOfCommandsAlone) {
         EXPECT_FALSE(is_in_menu(action(name))) << name;
 }
 
-TEST(Actions, MenusLieTogether) {
+TEST(Actions, ActionsOfAMenuAreContiguous) {
     std::set<std::string> seen;
     std::string previous;
     for (const Action& a : actions()) {
         if (a.menu != previous) {
-            EXPECT_TRUE(seen.insert(a.menu).second) << a.menu << " comes twice";
+            EXPECT_TRUE(seen.insert(a.menu).second) << a.menu << " is not contiguous";
         }
         previous = a.menu;
     }
@@ -156,7 +156,7 @@ TEST(Actions, HelpOpensByBothKeysAndCloses) {
     EXPECT_FALSE(state.layout.show_help);
 }
 
-TEST(Actions, MethodsOfTheActivePaneInTurn) {
+TEST(Actions, KeysSetTheMethodOfTheActivePane) {
     ViewerState state = two_panes();
     state.active_pane = 0;
     for (Method expected : {Method::pr, Method::gpt, Method::gpr, Method::pt}) {
@@ -168,7 +168,7 @@ TEST(Actions, MethodsOfTheActivePaneInTurn) {
     EXPECT_EQ(state.panes[0].settings.render.method, Method::gpr);
 }
 
-TEST(Actions, SlowMotionAndInspectorTakeTurns) {
+TEST(Actions, SlowMotionAndInspectorCloseEachOther) {
     ViewerState state = two_panes();
     type(state, key(Key::j));
     EXPECT_TRUE(state.slow_motion.active);
@@ -185,7 +185,7 @@ TEST(Actions, SlowMotionAndInspectorTakeTurns) {
     EXPECT_TRUE(state.slow_motion.held);
 }
 
-TEST(Actions, BuffersInAllPanes) {
+TEST(Actions, BufferKeysApplyToAllPanes) {
     const std::pair<Key, Buffer> keys[] = {{Key::digit2, Buffer::primal},   {Key::digit3, Buffer::dx},
                                            {Key::digit4, Buffer::dy},       {Key::digit5, Buffer::reused},
                                            {Key::digit6, Buffer::outcomes}, {Key::digit1, Buffer::reconstruction}};
@@ -231,7 +231,7 @@ TEST(Actions, TileStepsInAllLinkedPanes) {
     EXPECT_EQ(state.panes[1].settings.render.tile, 1);
 }
 
-TEST(Actions, TheFormBeginsWithTheSampleThatIsLookedAt) {
+TEST(Actions, TheSampleFormShowsTheInspectedSample) {
     ViewerState state = two_panes();
     state.active().settings.render.seed = 5;
     type(state, {Key::i, true, false, 0});
@@ -247,7 +247,7 @@ TEST(Actions, TheFormBeginsWithTheSampleThatIsLookedAt) {
     EXPECT_EQ(state.layout.sample_form.seed, 9u);
 }
 
-TEST(Actions, TextEntryKeepsItsLetters) {
+TEST(Actions, TextEntryBlocksShortcuts) {
     ViewerState state = two_panes();
     type(state, key(Key::r), true);
     type(state, key(Key::digit2), true);
@@ -274,12 +274,12 @@ TEST(Actions, CameraGoesHomeAndFliesWithKeys) {
     keyboard.release(Key::w);
     keyboard.press(Key::left, Key::left, false, false);
     EXPECT_TRUE(fly_with_keys(keyboard, 0.1f, state));
-    EXPECT_GT(state.camera.forward().x, 0); // the left of a camera without a turn is +x
+    EXPECT_GT(state.camera.forward().x, 0); // the left of an unrotated camera is +x
     type(state, key(Key::home));
     EXPECT_EQ(state.camera.position(), glm::vec3(0));
 }
 
-TEST(Messages, OfAnOriginGoTogetherAndTakeTheListWithThem) {
+TEST(Messages, DroppingTheLastErrorClosesTheList) {
     using Kind = Message::Kind;
     using Origin = Message::Origin;
     ViewerState state = two_panes();
@@ -289,17 +289,17 @@ TEST(Messages, OfAnOriginGoTogetherAndTakeTheListWithThem) {
     state.add_message(Kind::error, "of a load", Origin::failed_load);
     EXPECT_TRUE(state.layout.show_messages);
     state.drop_messages(Origin::scene);
-    EXPECT_TRUE(state.layout.show_messages); // there is an error yet
+    EXPECT_TRUE(state.layout.show_messages); // an error remains
     state.drop_messages(Origin::failed_load);
     EXPECT_FALSE(state.layout.show_messages);
     ASSERT_EQ(state.messages.size(), 1u);
     EXPECT_EQ(state.messages[0].text, "of the viewer");
-    state.layout.show_messages = true; // by hand, to read notes
+    state.layout.show_messages = true; // as if the user had opened it
     state.drop_messages(Origin::scene);
     EXPECT_TRUE(state.layout.show_messages);
 }
 
-TEST(Messages, OldestGoWhenThereAreTooMany) {
+TEST(Messages, TheOldestAreDroppedBeyondTheLimit) {
     ViewerState state = two_panes();
     for (int i = 0; i < 5000; ++i)
         state.add_message(Message::Kind::note, std::to_string(i));

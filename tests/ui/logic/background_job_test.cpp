@@ -12,14 +12,14 @@ namespace {
 
 using Job = BackgroundJob<int, int>;
 
-/// Work that goes on until it is told to stop, and then has a result all the same.
+/// Runs until a stop is requested, and then returns a result.
 int until_stopped(std::stop_token stop) {
     while (!stop.stop_requested())
         std::this_thread::yield();
     return -1;
 }
 
-TEST(BackgroundJob, ARequestIsWorkedOnOnce) {
+TEST(BackgroundJob, EqualRequestsRunOnce) {
     Job job;
     int started = 0;
     const auto work = [&](std::stop_token) { return ++started; };
@@ -32,14 +32,14 @@ TEST(BackgroundJob, ARequestIsWorkedOnOnce) {
     EXPECT_FALSE(job.running());
     EXPECT_FALSE(job.take());
     EXPECT_EQ(started, 1);
-    job.cancel(); // forgets it
+    job.cancel(); // drops the request
     job.ask(3, work, {});
     EXPECT_EQ(*job.wait()->result, 2);
-    job.start(3, work, {}); // in any case
+    job.start(3, work, {}); // starts even an equal request
     EXPECT_EQ(*job.wait()->result, 3);
 }
 
-TEST(BackgroundJob, TheLatestRequestWins) {
+TEST(BackgroundJob, ANewRequestCancelsTheOlderOne) {
     Job job;
     job.ask(1, until_stopped, {});
     job.ask(2, [](std::stop_token) { return 20; }, {});
@@ -47,10 +47,10 @@ TEST(BackgroundJob, TheLatestRequestWins) {
     const auto outcome = job.wait();
     EXPECT_EQ(outcome->request, 2);
     EXPECT_EQ(outcome->result, 20);
-    EXPECT_FALSE(job.wait()); // nothing is heard of the first
+    EXPECT_FALSE(job.wait()); // the first has no outcome
 }
 
-TEST(BackgroundJob, WhatWasStoppedStillHasAnOutcome) {
+TEST(BackgroundJob, StoppedWorkHasAnOutcome) {
     Job job;
     job.start(1, until_stopped, {});
     EXPECT_FALSE(job.stopping());
@@ -60,7 +60,7 @@ TEST(BackgroundJob, WhatWasStoppedStillHasAnOutcome) {
     EXPECT_FALSE(job.stopping());
 }
 
-TEST(BackgroundJob, FailuresAreToldAndNotTriedAgain) {
+TEST(BackgroundJob, FailuresAreReportedAndNotRetried) {
     Job job;
     const auto fails = [](std::stop_token) -> int { throw std::runtime_error("no such thing"); };
     job.ask(1, fails, {});
@@ -71,24 +71,23 @@ TEST(BackgroundJob, FailuresAreToldAndNotTriedAgain) {
     EXPECT_FALSE(job.running());
 }
 
-TEST(BackgroundJob, TheOutcomeIsThereWhenItsEndIsTold) {
+TEST(BackgroundJob, TheOutcomeIsAvailableInOnDone) {
     Job job;
     std::binary_semaphore told(0);
-    job.ask(
-        1, [](std::stop_token) { return 10; }, [&] { told.release(); });
+    job.ask(1, [](std::stop_token) { return 10; }, [&] { told.release(); });
     told.acquire();
     const auto outcome = job.take();
     ASSERT_TRUE(outcome);
     EXPECT_EQ(outcome->result, 10);
 }
 
-TEST(Identity, AnObjectThatIsGoneIsNoOther) {
+TEST(Identity, ADestroyedObjectDiffersFromANewOne) {
     auto object = std::make_shared<int>(1);
     const Identity first(object);
     EXPECT_EQ(first, Identity(object));
     EXPECT_NE(first, Identity());
     object.reset();
-    EXPECT_NE(first, Identity(object)); // though both lead to nothing
+    EXPECT_NE(first, Identity(object)); // although both are empty
     EXPECT_EQ(Identity(object), Identity());
 }
 

@@ -24,7 +24,7 @@ Snapshot snapshot_of(Method method) {
     Snapshot snapshot;
     snapshot.settings.method = method;
     snapshot.images = images;
-    if (method != Method::pt) // of two passes
+    if (method != Method::pt) // maps of two passes
         snapshot.reuse = std::make_shared<ReuseMaps>(ReuseMaps{{4, 3, {{15, 3, 0, 0, 2, 0}, 3, 1}},
                                                                2,
                                                                Image<float>(4, 3, 49),
@@ -45,11 +45,11 @@ float first(const Snapshot& snapshot, Buffer buffer) {
     return image.empty() ? -1.0f : image(0, 0).r;
 }
 
-TEST(Buffer, PictureOfEach) {
+TEST(Buffer, EachHasItsPicture) {
     Snapshot snapshot = snapshot_of(Method::gpr);
     snapshot.reconstruction = reconstruction(4, 3);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reconstruction), 7);
-    EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal), 0.75f); // with the very direct light
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal), 0.75f); // includes directly visible emission
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::dx), 1);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::dy), 2);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::very_direct), 0.25f);
@@ -58,10 +58,10 @@ TEST(Buffer, PictureOfEach) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::dy_variance), 12);
 }
 
-TEST(Buffer, PrimalStandsInForTheReconstruction) {
+TEST(Buffer, PrimalReplacesAMissingReconstruction) {
     Snapshot snapshot = snapshot_of(Method::gpr);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reconstruction), 0.75f);
-    snapshot.reconstruction = reconstruction(1, 1); // still that of the first look
+    snapshot.reconstruction = reconstruction(1, 1); // that of the preview
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reconstruction), 0.75f);
     Snapshot path_traced = snapshot_of(Method::pt); // denoised
     path_traced.reconstruction = reconstruction(4, 3);
@@ -73,7 +73,7 @@ TEST(Buffer, MethodsWithoutGradientsHaveNone) {
     EXPECT_FLOAT_EQ(first(Snapshot{}, Buffer::primal), -1);
 }
 
-TEST(Buffer, OfTheBasisWhereThereIsOne) {
+TEST(Buffer, BasisBuffersNeedABasis) {
     Snapshot snapshot = snapshot_of(Method::gpr);
     auto images = std::make_shared<GradientImages>(*snapshot.images);
     images->demodulation = {RgbImage(4, 3, Rgb(0.4f)),
@@ -89,7 +89,7 @@ TEST(Buffer, OfTheBasisWhereThereIsOne) {
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::mean_albedo), 0.6f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::sampled_albedo), 0.7f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::covariance), 0.4f - 0.7f * 0.5f);
-    EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal), 0.4f + 0.25f); // radiance, with the very direct light
+    EXPECT_FLOAT_EQ(first(snapshot, Buffer::primal), 0.4f + 0.25f); // radiance, with directly visible emission
     snapshot = snapshot_of(Method::gpr);
     snapshot.settings.basis = Basis::none;
     for (Buffer buffer : {Buffer::coefficient, Buffer::mean_albedo, Buffer::sampled_albedo, Buffer::covariance}) {
@@ -99,7 +99,7 @@ TEST(Buffer, OfTheBasisWhereThereIsOne) {
     }
 }
 
-TEST(Buffer, OfAPartWhereOneIsWanted) {
+TEST(Buffer, AComponentReplacesTheSum) {
     Snapshot snapshot = snapshot_of(Method::gpr);
     auto images = std::make_shared<GradientImages>(*snapshot.images);
     const RgbImage grey_part(4, 3, Rgb(0.3f));
@@ -122,7 +122,7 @@ TEST(Buffer, OfAPartWhereOneIsWanted) {
     EXPECT_FLOAT_EQ(first_of(Buffer::projection, -1), 0.25f);
     EXPECT_FLOAT_EQ(first_of(Buffer::coefficient, 1), 0.3f);
     EXPECT_FLOAT_EQ(first_of(Buffer::coefficient, -1), 0.5f);
-    EXPECT_FLOAT_EQ(first_of(Buffer::coefficient, 2), 0.5f); // there is none: the whole
+    EXPECT_FLOAT_EQ(first_of(Buffer::coefficient, 2), 0.5f); // there is no such component: the sum
     EXPECT_FLOAT_EQ(first_of(Buffer::dx, 0), 0.3f);
     EXPECT_FLOAT_EQ(first_of(Buffer::dy_variance, 0), 0.1f);
     snapshot.settings.basis = Basis::albedo;
@@ -130,7 +130,7 @@ TEST(Buffer, OfAPartWhereOneIsWanted) {
     EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::projection, {}).find("no basis components"), std::string::npos);
 }
 
-TEST(Buffer, MapsOfReuseWhereThereIsAny) {
+TEST(Buffer, ReuseMapsNeedPathReuse) {
     const Snapshot snapshot = snapshot_of(Method::pr);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::reused), 7.5f);
     EXPECT_FLOAT_EQ(first(snapshot, Buffer::outcomes), 0.25f);
@@ -153,8 +153,8 @@ TEST(Buffer, MapsOfReuseWhereThereIsAny) {
     EXPECT_NE(missing_text(nullptr, Method::gpt, Buffer::reuse_set_size, {}).find("no tiles"), std::string::npos);
 }
 
-/// The numbers are shares, and the colours the mean of those that stand for the outcomes everywhere.
-TEST(Buffer, OutcomesHaveColoursOfTheirOwn) {
+/// Values are fractions. Colours are the mean of the outcomes' colours.
+TEST(Buffer, OutcomesAreShownByMeanColours) {
     const Snapshot snapshot = snapshot_of(Method::pr);
     const auto colour = [](ShiftOutcome outcome) {
         const ImU32 c = outcome_colour(outcome);
@@ -170,7 +170,7 @@ TEST(Buffer, OutcomesHaveColoursOfTheirOwn) {
     EXPECT_EQ(outcome_colours({{1, 1}, 5})(0, 0), Rgb(0));
 }
 
-TEST(Buffer, SharesOfOutcomesInWords) {
+TEST(Buffer, FractionsOfOutcomesAsText) {
     EXPECT_EQ(outcome_shares({{714, 202, 0, 0, 3, 81}, 0, 0}),
               "ok 71 %, occluded 20 %, no light 8.1 %, outside 0.3 %");
     EXPECT_EQ(outcome_shares({{0, 0, 0, 7, 0, 0}, 0, 0}), "total reflection 100 %");
@@ -199,13 +199,14 @@ TEST(Buffer, ErrorsOfEachKind) {
         const ValueRange range = automatic_range(buffer, scratch, companions);
         EXPECT_TRUE(range.logarithmic);
         EXPECT_GT(range.low, 0);
-        EXPECT_EQ(range, automatic_range(buffer, RgbImage(2, 2, Rgb(77)), companions)); // comparable
+        EXPECT_EQ(range,
+                  automatic_range(buffer, RgbImage(2, 2, Rgb(77)), companions)); // the same range for all pictures
     }
     EXPECT_EQ(companion_source(companions, Buffer::error_squared), reference);
     EXPECT_EQ(companion_source(companions, Buffer::primal), nullptr);
 }
 
-TEST(Buffer, SaysWhyThereIsNone) {
+TEST(Buffer, MissingTextGivesTheReason) {
     const Snapshot snapshot = snapshot_of(Method::pt);
     RgbImage scratch;
     EXPECT_TRUE(picture(snapshot, Buffer::error_squared, scratch).empty());
@@ -235,11 +236,11 @@ TEST(Buffer, FirstHitsNeedNoSamples) {
     EXPECT_EQ(picture({}, Buffer::normal, scratch, companions)(0, 0), Rgb(0, 1, 0));
     EXPECT_EQ(picture({}, Buffer::depth, scratch, companions)(0, 0), Rgb(9));
     EXPECT_EQ(picture({}, Buffer::footprint_1, scratch, companions)(0, 0), Rgb(0.25f));
-    EXPECT_TRUE(picture({}, Buffer::footprint_2, scratch, companions).empty()) << "not asked for";
+    EXPECT_TRUE(picture({}, Buffer::footprint_2, scratch, companions).empty()) << "it was not requested";
     EXPECT_TRUE(picture({}, Buffer::depth, scratch).empty());
 }
 
-TEST(Buffer, TopValuesReadWell) {
+TEST(Buffer, UpperLimitsAreRoundNumbers) {
     const auto top = [](float greatest) {
         RgbImage image(3, 2, Rgb(0));
         image(1, 1) = Rgb(greatest);
@@ -257,13 +258,13 @@ TEST(Buffer, TopValuesReadWell) {
     EXPECT_FLOAT_EQ(top_value(Buffer::survival, RgbImage(2, 2, Rgb(0.3f))), 1);
 }
 
-TEST(Buffer, LegendSaysWhatTheColoursStandFor) {
+TEST(Buffer, LegendNamesTheQuantity) {
     EXPECT_EQ(legend_text(Buffer::reused, {0, 50}), "reused: 0 .. 50 paths per pass");
     EXPECT_EQ(legend_text(Buffer::reused, {0, 0.12f}), "reused: 0 .. 0.12 paths per pass");
     EXPECT_EQ(legend_text(Buffer::survival, {0, 1}), "survival: 0 .. 100 %");
 }
 
-TEST(Buffer, EveryOneHasNamesOfItsOwn) {
+TEST(Buffer, NamesAreUnique) {
     std::set<std::string_view> names;
     for (Buffer buffer : all_buffers) {
         EXPECT_TRUE(names.insert(short_name(buffer)).second);
@@ -274,7 +275,7 @@ TEST(Buffer, EveryOneHasNamesOfItsOwn) {
         EXPECT_EQ(info(buffer).buffer, buffer);
 }
 
-TEST(Buffer, SourceChangesWithWhatIsShownOnly) {
+TEST(Buffer, SourceChangesOnlyWithThePicture) {
     Snapshot snapshot = snapshot_of(Method::gpr);
     snapshot.reconstruction = reconstruction(4, 3);
     Snapshot newer = snapshot_of(Method::gpr);

@@ -40,7 +40,8 @@ void expect_near(glm::vec3 a, glm::vec3 b, float tolerance = 1e-4f) {
         << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-/// Where in the picture a point is seen: inverts Camera::ray, whose directions are linear in the pixel at a depth.
+/// Projects a point to the picture. Inverts Camera::ray, whose directions are linear in the pixel at a fixed
+/// depth.
 glm::vec2 pixel_of(const Camera& camera, glm::vec3 point, glm::ivec2 size) {
     const auto local = [&](glm::vec3 v) { return glm::inverse(glm::mat3(camera.to_world)) * v; };
     const auto on_plane = [&](glm::vec2 pixel) {
@@ -52,7 +53,7 @@ glm::vec2 pixel_of(const Camera& camera, glm::vec3 point, glm::ivec2 size) {
     return (glm::vec2(d) / d.z - corner) / (far_corner - corner) * glm::vec2(size);
 }
 
-TEST(CameraControl, TargetLiesAsFarAheadAsTheSceneCentre) {
+TEST(CameraControl, TargetIsAtTheDistanceOfTheSceneCentre) {
     const CameraControl control = control_of(front_camera());
     EXPECT_NEAR(control.distance(), 5, 1e-5);
     expect_near(control.target(), {0, 0, 0});
@@ -67,14 +68,14 @@ TEST(CameraControl, OrbitKeepsTargetAndDistance) {
         control.orbit({pixels(random), pixels(random)}, 400);
     expect_near(control.target(), {0, 0, 0}, 5e-3f);
     EXPECT_NEAR(control.distance(), 5, 1e-5);
-    // Still a rotation, and still level: the camera's left is horizontal.
+    // The matrix remains a rotation, and the camera's left remains horizontal.
     const glm::mat3 axes(control.camera().to_world);
     EXPECT_NEAR(glm::determinant(axes), 1, 1e-4);
     EXPECT_NEAR(axes[0].y, 0, 1e-4);
     EXPECT_GT(axes[1].y, 0);
 }
 
-TEST(CameraControl, OrbitEqualsRotationsByGlm) {
+TEST(CameraControl, OrbitEqualsGlmRotations) {
     CameraControl control = control_of(front_camera());
     control.orbit({50, 0}, 400); // 50/400 of a half turn
     const float angle = glm::pi<float>() * 50 / 400;
@@ -89,7 +90,7 @@ TEST(CameraControl, OrbitEqualsRotationsByGlm) {
         expect_near(glm::vec3(control.camera().to_world[c]), glm::vec3(tilted[c]));
 }
 
-TEST(CameraControl, DraggedThingsInFrontFollowTheMouse) {
+TEST(CameraControl, OrbitMovesNearObjectsWithTheMouse) {
     const glm::ivec2 size(400, 300);
     const glm::vec3 in_front(0, 0, 1); // nearer than the target
     for (const glm::vec2 drag : {glm::vec2(30, 0), glm::vec2(0, 30)}) {
@@ -112,7 +113,7 @@ TEST(CameraControl, OrbitStopsShortOfThePoles) {
     }
 }
 
-TEST(CameraControl, PanMovesWhatIsUnderTheCursorWithIt) {
+TEST(CameraControl, PanMovesTheTargetPlaneWithTheCursor) {
     const glm::ivec2 size(640, 360);
     for (const Camera& camera :
          {front_camera(), Camera{look_at({3, 2, 4}, {0.2f, 0, 0}, {0, 1, 0}), 60, FovAxis::y},
@@ -137,14 +138,14 @@ Camera orthographic_camera() {
     return camera;
 }
 
-TEST(CameraControl, DollyOfAnOrthographicCameraIsHowMuchItSees) {
+TEST(CameraControl, DollyScalesTheViewOfAnOrthographicCamera) {
     CameraControl control = control_of(orthographic_camera());
     control.dolly(0.5f);
     expect_near(control.position(), {0, 0, 5});
     EXPECT_NEAR(control.distance(), 5, 1e-5);
     const Ray corner = control.camera().ray({0, 0}, {100, 100});
     EXPECT_NEAR(std::abs(corner.origin.x), 1.5f, 1e-4);
-    control.orbit({40, 20}, 300); // what was seen of it stays
+    control.orbit({40, 20}, 300); // the size of the view stays
     EXPECT_NEAR(glm::length(glm::vec3(control.camera().to_world[0])), 1.5f, 1e-4);
     for (int i = 0; i < 1000; ++i)
         control.dolly(0.5f);
@@ -164,7 +165,7 @@ TEST(CameraControl, OrthographicPanFollowsTheCursor) {
     expect_near(control.camera().ray(to, size).origin, before.origin);
 }
 
-TEST(CameraControl, PanByTheWidthMovesByTheWidthSeen) {
+TEST(CameraControl, PanByThePictureWidthMovesByTheVisibleWidth) {
     // +x of a Mitsuba camera is to the left: dragging to the right moves the camera to its left.
     CameraControl control = control_of(front_camera());
     control.pan({0, 50}, {100, 50}, {100, 100});
@@ -173,7 +174,7 @@ TEST(CameraControl, PanByTheWidthMovesByTheWidthSeen) {
     EXPECT_GT(glm::dot(control.position() - glm::vec3(0, 0, 5), glm::vec3(control.camera().to_world[0])), 0);
 }
 
-TEST(CameraControl, DollyKeepsTheTargetAndNeverPassesIt) {
+TEST(CameraControl, DollyKeepsTheTargetAndStopsBeforeIt) {
     CameraControl control = control_of(front_camera());
     control.dolly(0.5f);
     EXPECT_NEAR(control.distance(), 2.5f, 1e-5);
@@ -206,7 +207,7 @@ TEST(CameraControl, LookTurnsInPlace) {
     EXPECT_NEAR(control.forward().y, std::sin(0.3f), 1e-4);
 }
 
-TEST(CameraControl, MirroredCameraStaysMirroredAndTurnsAsSeen) {
+TEST(CameraControl, MirroredCameraStaysMirroredAndFollowsTheMouse) {
     Camera camera = front_camera();
     camera.to_world = glm::scale(camera.to_world, {-1, 1, 1});
     CameraControl control = control_of(camera);
@@ -217,7 +218,7 @@ TEST(CameraControl, MirroredCameraStaysMirroredAndTurnsAsSeen) {
     EXPECT_GT(pixel_of(control.camera(), in_front, size).x, 200);
 }
 
-TEST(CameraControl, ScaleOfTheMatrixStays) {
+TEST(CameraControl, KeepsTheScaleOfTheMatrix) {
     Camera camera = front_camera();
     camera.to_world = glm::scale(camera.to_world, {2, 3, 0.5f});
     CameraControl control = control_of(camera);
@@ -228,7 +229,7 @@ TEST(CameraControl, ScaleOfTheMatrixStays) {
                     glm::length(glm::vec3(camera.to_world[c])), 1e-4);
 }
 
-TEST(CameraControl, GoHomeUndoesEverything) {
+TEST(CameraControl, GoHomeRestoresTheFirstCamera) {
     CameraControl control = control_of(front_camera());
     control.orbit({100, 30}, 300);
     control.dolly(0.3f);
@@ -238,8 +239,8 @@ TEST(CameraControl, GoHomeUndoesEverything) {
     EXPECT_FLOAT_EQ(control.distance(), 5);
 }
 
-TEST(CameraControl, UpIsTheNearestAxis) {
-    // A scene with z up: a drag sideways turns about z.
+TEST(CameraControl, UpIsTheAxisNearestToTheCamerasUp) {
+    // In a scene with z up, a sideways drag rotates about z.
     CameraControl control = control_of({look_at({0, -5, 1}, {0, 0, 0}, {0, 0, 1}), 40, FovAxis::x});
     const float height = control.position().z;
     control.orbit({80, 0}, 400);

@@ -55,7 +55,7 @@ TEST(ChartAxis, SixDecadesAreLabelledByPowersOfTen) {
     EXPECT_GT(axis.high(), 30);
 }
 
-TEST(ChartAxis, FewDecadesAreLabelledBetweenThemToo) {
+TEST(ChartAxis, FewDecadesHaveLabelsBetweenPowersOfTen) {
     EXPECT_EQ(labels(ChartAxis::spanning(Scale::log, {0.011, 0.19})),
               (std::vector<std::string>{"0.01", "0.02", "0.05", "0.1", "0.2"}));
 }
@@ -66,7 +66,7 @@ TEST(ChartAxis, LinearTicksAreRound) {
     EXPECT_THAT(labels(ChartAxis::spanning(Scale::linear, {-1, 1})), Contains("0"));
 }
 
-TEST(ChartAxis, AnyValuesMakeASoundAxis) {
+TEST(ChartAxis, AnyValuesMakeAValidAxis) {
     const std::vector<std::vector<double>> cases = {
         {},           {nan},          {1},         {0},          {-5},         {1e-300},          {1e300},
         {1, 1},       {1, 1.001},     {1e-9, 1e9}, {infinity},   {0, 1},       {5e9, 5e9 + 1e-6}, {1, 1e-40},
@@ -86,7 +86,7 @@ TEST(ChartAxis, AnyValuesMakeASoundAxis) {
     }
 }
 
-TEST(ChartNumber, IsShort) {
+TEST(ChartNumber, HasAtMostFourDigits) {
     EXPECT_EQ(chart_number(0), "0");
     EXPECT_EQ(chart_number(-0.0), "0");
     EXPECT_EQ(chart_number(0.0005), "0.0005");
@@ -122,20 +122,20 @@ std::ptrdiff_t count(const pugi::xml_document& document, const char* name) {
     return std::distance(nodes.begin(), nodes.end());
 }
 
-TEST(Chart, HoldsEverySeriesAndItsLabel) {
+TEST(Chart, ContainsEachSeriesAndLabel) {
     const std::string svg =
         to_svg(two_plots({{"a < b", {{1, 0.1, 0.02}, {2, 0.01}}}, {"level", {{0, 0.03}}, true}},
                          {{"a < b", {{1, 5}, {2, 6}, {3, 7}}}, {"third", {{3, 3}}}}));
     const pugi::xml_document document = parse(svg);
     for (const char* text : {"A <chart> & its \"title\"", "left", "right", "x", "a < b", "level", "third"})
         EXPECT_THAT(texts(document), Contains(text));
-    EXPECT_EQ(count(document, "polyline"), 3) << "a line a series, but for the level";
-    // Circles: five points of the first series, and its sample in the key.
+    EXPECT_EQ(count(document, "polyline"), 3) << "one polyline per series except the level";
+    // Circles: the five points of the first series, and its marker in the key.
     EXPECT_EQ(count(document, "circle"), 6);
     EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
 }
 
-TEST(Chart, WhatHasNoPlaceIsLeftOut) {
+TEST(Chart, SkipsPointsThatAxesCannotShow) {
     const std::vector<ChartSeries> odd = {{"a", {{1, nan}, {2, -1}, {3, 0}, {infinity, 1}, {4, 0.5, nan}}},
                                           {"b", {{1, infinity}, {5, 0.25, 0.5}, {6, 0.1, infinity}}},
                                           {"c", {{0, nan}}, true},
@@ -172,7 +172,7 @@ TEST(Chart, PointsAndBarsLieInTheFrame) {
         EXPECT_LE(line.attribute("y2").as_double(), bottom);
     }
     EXPECT_EQ(bars, 2);
-    // The line goes from left to right, whatever the order of the points.
+    // The line goes from left to right for any order of the points.
     EXPECT_THAT(document.document_element().child("polyline").attribute("points").value(),
                 testing::ContainsRegex("^[0-9.]+,[0-9.]+ [0-9.]+,[0-9.]+ [0-9.]+,[0-9.]+ $"));
     double last = 0;
@@ -183,7 +183,7 @@ TEST(Chart, PointsAndBarsLieInTheFrame) {
     }
 }
 
-TEST(Chart, EveryMethodAndNormHasALookOfItsOwn) {
+TEST(Chart, MethodsAndNormsHaveDistinctStyles) {
     std::vector<ChartSeries> lines;
     for (Method method : all_methods)
         for (Norm norm : all_norms)
@@ -198,14 +198,14 @@ TEST(Chart, EveryMethodAndNormHasALookOfItsOwn) {
         strokes.insert(line.attribute("stroke").value());
         dashes.emplace(line.attribute("stroke").value(), line.attribute("stroke-dasharray").value());
     }
-    EXPECT_EQ(strokes.size(), std::size(all_methods)) << "a colour a method";
-    EXPECT_EQ(dashes.size(), 2 + 2 * all_norms.size()) << "dashes for norms, of methods that have any";
+    EXPECT_EQ(strokes.size(), std::size(all_methods)) << "one colour per method";
+    EXPECT_EQ(dashes.size(), 2 + 2 * all_norms.size()) << "dashes show the norms that apply to the method";
     EXPECT_GT(count(document, "circle"), 0);
     EXPECT_EQ(count(document, "circle") + 2, count(document, "rect"))
-        << "ground and frame, and the second markers";
+        << "background, frame, and the square markers";
 }
 
-TEST(Chart, NamesStandAtTheirPlaces) {
+TEST(Chart, NamesAreTicksAtIntegers) {
     const Chart chart{
         "t", {{"shift", "y", Scale::log, Scale::log, {"half-vector", "replay"}, {{"a", {{0, 1}, {1, 2}}}}}}};
     const std::vector<std::string> all = texts(parse(to_svg(chart)));

@@ -1,4 +1,4 @@
-// Undo and redo, presets, and commands by words.
+// Undo and redo, presets, and the search for commands.
 
 #include "render/settings/settings_table.h"
 #include "ui/panels/found_actions.h"
@@ -24,7 +24,7 @@ Document document_with(int panes) {
     return document;
 }
 
-TEST(History, GoesBackAndForth) {
+TEST(History, UndoesAndRedoes) {
     Document document = document_with(2);
     History history;
     history.note(document, false);
@@ -40,7 +40,7 @@ TEST(History, GoesBackAndForth) {
     history.undo(document);
     EXPECT_EQ(document.panes[1].settings.render.tile, RenderSettings().tile);
     EXPECT_FALSE(history.can_undo());
-    history.undo(document); // nothing
+    history.undo(document); // has no effect
     history.redo(document);
     history.redo(document);
     EXPECT_EQ(document.camera.position(), flown);
@@ -61,7 +61,7 @@ TEST(History, ADragIsOneStep) {
     EXPECT_FALSE(history.can_undo());
 }
 
-TEST(History, PanesComeBackWithTheirSettings) {
+TEST(History, UndoRestoresPanesWithTheirSettings) {
     Document document = document_with(2);
     document.panes[0].settings.render.tile = 5;
     document.linked = false;
@@ -76,7 +76,7 @@ TEST(History, PanesComeBackWithTheirSettings) {
     EXPECT_FALSE(document.linked);
 }
 
-TEST(History, WhatIsDoneAfterUndoEndsRedo) {
+TEST(History, AChangeAfterUndoClearsRedo) {
     Document document = document_with(1);
     History history;
     for (float exposure : {0.0f, 1.0f, 2.0f}) {
@@ -91,7 +91,7 @@ TEST(History, WhatIsDoneAfterUndoEndsRedo) {
     EXPECT_EQ(document.display.tone.exposure, 1);
 }
 
-TEST(Presets, AreKnownByTheirSettingsWhateverTheMethod) {
+TEST(Presets, AreRecognisedForAnyMethod) {
     for (std::size_t i = 0; i < presets().size(); ++i) {
         for (Method method : all_methods) {
             PaneSettings pane;
@@ -112,10 +112,10 @@ TEST(Presets, AreKnownByTheirSettingsWhateverTheMethod) {
             EXPECT_EQ(preset_of(pane), -1);
         }
     }
-    EXPECT_EQ(preset_of(PaneSettings()), 0) << "what the program begins with is a preset";
+    EXPECT_EQ(preset_of(PaneSettings()), 0) << "the defaults are a preset";
 }
 
-TEST(FoundActions, HaveAllWords) {
+TEST(FoundActions, ContainAllSearchWords) {
     EXPECT_EQ(actions_with("").size(), actions().size());
     const auto found = actions_with("four pane");
     ASSERT_FALSE(found.empty());
@@ -126,7 +126,7 @@ TEST(FoundActions, HaveAllWords) {
                             [](const Action* action) { return std::string(action->name) == "Redo"; }));
 }
 
-TEST(DefaultPanes, FourLieAsATable) {
+TEST(DefaultPanes, FourShowTheFourMethods) {
     Document document = document_with(2);
     document.active_pane = 1;
     const auto method = [&](std::size_t i) { return document.panes[i].settings.render.method; };

@@ -8,14 +8,14 @@ namespace {
 
 constexpr glm::ivec2 image(320, 180), pane(500, 400);
 
-TEST(ImageView, WholePictureFitsInTheMiddle) {
+TEST(ImageView, PictureIsFittedAndCentred) {
     const Placement p = ImageView().place(image, pane);
     EXPECT_FLOAT_EQ(p.extent.x, 500);
     EXPECT_NEAR(p.extent.y, 281.25f, 0.01f);
     EXPECT_NEAR(p.origin.y, (400 - 281.25f) / 2, 1);
 }
 
-TEST(ImageView, NearlyFullPictureIsShownPixelByPixel) {
+TEST(ImageView, NearlyFittingPictureHasOnePixelPerUnit) {
     const Placement p = ImageView().place({480, 270}, {500, 400});
     EXPECT_EQ(p.extent, glm::vec2(480, 270));
     EXPECT_EQ(p.origin, glm::vec2(10, 65));
@@ -28,7 +28,7 @@ TEST(ImageView, ZoomKeepsThePointUnderTheCursor) {
     const glm::vec2 before = view.place(image, pane).to_image(cursor);
     view.zoom_at(cursor, 1.5f, image, pane);
     const glm::vec2 after = view.place(image, pane).to_image(cursor);
-    EXPECT_LT(glm::length(before - after), 1.0f / 500); // origins are whole pixels
+    EXPECT_LT(glm::length(before - after), 1.0f / 500); // the picture begins at whole screen pixels
     EXPECT_FLOAT_EQ(view.zoom(), 6);
 }
 
@@ -42,7 +42,7 @@ TEST(ImageView, PanMovesByPixels) {
     EXPECT_NEAR(moved.y, -25, 1);
 }
 
-TEST(ImageView, PictureCannotBeLost) {
+TEST(ImageView, PanKeepsThePictureVisible) {
     ImageView view;
     for (int i = 0; i < 100; ++i)
         view.pan({1000, 1000}, image, pane);
@@ -56,7 +56,7 @@ TEST(ImageView, PictureCannotBeLost) {
     EXPECT_EQ(view, ImageView());
 }
 
-TEST(ImageView, SameFractionForImagesOfDifferentSize) {
+TEST(ImageView, SameFractionForImagesOfDifferentSizes) {
     ImageView view;
     view.zoom_at({100, 100}, 3, image, pane);
     const Placement large = view.place(image, pane), small = view.place(image / 4, pane);

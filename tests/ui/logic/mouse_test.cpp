@@ -60,11 +60,11 @@ TEST_F(MouseTest, WheelAndRightDragDolly) {
     PaneMouse right = drag();
     right.right = true;
     apply(right);
-    EXPECT_GT(state.camera.distance(), 5); // downward: away
+    EXPECT_GT(state.camera.distance(), 5); // downward moves away
     EXPECT_LT(glm::length(state.camera.target()), 1e-3f);
 }
 
-TEST_F(MouseTest, CtrlMovesThePictureNotTheCamera) {
+TEST_F(MouseTest, CtrlDragMovesThePictureNotTheCamera) {
     PaneMouse wheel;
     wheel.position = wheel.previous = {100, 100};
     wheel.wheel = 2;

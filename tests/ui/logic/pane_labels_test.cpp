@@ -1,4 +1,4 @@
-// What panes, badges and curves are called.
+// Labels of panes, badges and curves.
 
 #include "ui/panes/pane_parts.h"
 #include "ui/panes/showing.h"
@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-/// Panes of these methods, with the settings that are usual.
+/// Returns panes of these methods with default settings.
 ViewerState panes_of(std::initializer_list<Method> methods) {
     ViewerState state;
     for (Method method : methods)
@@ -20,7 +20,7 @@ ViewerState panes_of(std::initializer_list<Method> methods) {
     return state;
 }
 
-TEST(PaneLabels, AMethodIsEnoughWhereMethodsDiffer) {
+TEST(PaneLabels, ShowTheMethodOnlyIfMethodsDiffer) {
     ViewerState state = panes_of({Method::pt, Method::gpr});
     state.panes[1].settings.render.tile = 5; // PT has no tiles
     state.panes[1].settings.reconstruction.norm = Norm::l1;
@@ -28,7 +28,7 @@ TEST(PaneLabels, AMethodIsEnoughWhereMethodsDiffer) {
     EXPECT_EQ(pane_label(state, 1), "G-PR");
 }
 
-TEST(PaneLabels, TellTwoPanesOfOneMethodApartByWhatDiffers) {
+TEST(PaneLabels, ShowTheDifferenceOfPanesOfOneMethod) {
     ViewerState state = panes_of({Method::gpr, Method::gpr});
     state.panes[0].settings.reconstruction.norm = Norm::l2;
     state.panes[1].settings.reconstruction.norm = Norm::l1;
@@ -44,7 +44,7 @@ TEST(PaneLabels, TellTwoPanesOfOneMethodApartByWhatDiffers) {
                                         : "G-PR, tile 8, adaptive tiles off, L1");
 }
 
-TEST(PaneLabels, BadgesAndStatusHaveThem) {
+TEST(PaneLabels, AreUsedByBadgesAndStatus) {
     ViewerState state = panes_of({Method::gpr, Method::gpr});
     state.panes[1].settings.reconstruction.norm = Norm::l1;
     EXPECT_EQ(label_of(Showing{0}, state), "1  G-PR, guided  Reconstruction");

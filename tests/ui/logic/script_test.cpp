@@ -37,15 +37,15 @@ TEST(Script, StepsQuotesAndComments) {
 }
 
 TEST(Script, ErrorsNameFileAndLine) {
-    EXPECT_EQ(error_of("wait scene\njump 3").rfind("steps.txt:2: no step is called jump; there are wait, key", 0),
+    EXPECT_EQ(error_of("wait scene\njump 3").rfind("steps.txt:2: unknown step jump; the steps are wait, key", 0),
               0u);
-    EXPECT_EQ(error_of("\n\nset tile"), "steps.txt:3: it is: set NAME VALUE");
-    EXPECT_EQ(error_of("print \"no end"), "steps.txt:1: a quotation has no end");
+    EXPECT_EQ(error_of("\n\nset tile"), "steps.txt:3: usage: set NAME VALUE");
+    EXPECT_EQ(error_of("print \"no end"), "steps.txt:1: missing closing quotation mark");
     EXPECT_EQ(error_of("print \"\""), "");
     EXPECT_THROW(read_script("/nowhere/steps.txt"), ScriptError);
 }
 
-TEST(Script, KeysHaveTheNamesOfTheMenus) {
+TEST(Script, KeysAreNamedAsInTheMenus) {
     EXPECT_EQ(shortcut_named("M"), (Shortcut{Key::m, false, false, 0}));
     EXPECT_EQ(shortcut_named("Ctrl+Shift+K"), (Shortcut{Key::k, true, true, 0}));
     EXPECT_EQ(shortcut_named("F12"), (Shortcut{Key::f12, false, false, 0}));
@@ -60,7 +60,7 @@ TEST(Script, KeysHaveTheNamesOfTheMenus) {
     }
 }
 
-TEST(NamedSettings, SetPanesAndViewer) {
+TEST(NamedSettings, SetPaneAndViewerSettings) {
     ViewerState state;
     for (const PaneSettings& settings : default_panes(2))
         state.panes.push_back({settings, nullptr, 0, {100, 100}});

@@ -40,7 +40,7 @@ bool has_figure(const Snapshot& snapshot, const std::string& id) {
     });
 }
 
-TEST(Statistics, FiguresOfEveryCounter) {
+TEST(Statistics, EachCounterHasAFigure) {
     const std::vector<StatisticGroup> groups = statistics(snapshot_of_counts());
     EXPECT_EQ(figure(groups, "spp").value, "12");
     EXPECT_EQ(figure(groups, "camera_paths").value, "2000");
@@ -62,17 +62,17 @@ TEST(Statistics, FiguresOfEveryCounter) {
     }
 }
 
-TEST(Statistics, WhatDidNotHappenIsLeftOut) {
+TEST(Statistics, EventsThatDidNotOccurAreOmitted) {
     Snapshot snapshot = snapshot_of_counts();
     EXPECT_FALSE(has_figure(snapshot, "rays.light"));
     snapshot.counters.dark_paths = snapshot.counters.skipped_paths = snapshot.counters.reused_paths = 0;
     snapshot.counters.shifts = {};
     EXPECT_FALSE(has_figure(snapshot, "reused"));
     EXPECT_FALSE(has_figure(snapshot, "shifts.ok"));
-    EXPECT_EQ(figure(statistics(Snapshot{}), "path_vertices").value, "0.00"); // of no path at all
+    EXPECT_EQ(figure(statistics(Snapshot{}), "path_vertices").value, "0.00"); // without any path
 }
 
-TEST(Statistics, CountsKeepThreeDigits) {
+TEST(Statistics, CountsHaveThreeDigits) {
     EXPECT_EQ(count_text(0), "0");
     EXPECT_EQ(count_text(9999), "9999");
     EXPECT_EQ(count_text(12345), "12.3 k");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A viewer of a scene that lies in a folder, with the camera moved.
+/// A viewer with a scene from another folder, and a moved camera.
 struct CameraActions : testing::Test, ViewerHarness {
     CameraActions() {
         show(folder.path() / "room.xml");
@@ -33,11 +33,11 @@ struct CameraActions : testing::Test, ViewerHarness {
     TemporaryFolder folder, elsewhere;
 };
 
-TEST_F(CameraActions, SavesInTheCurrentFolderAndWritesOverNothing) {
+TEST_F(CameraActions, SavesInTheCurrentFolderWithoutOverwriting) {
     type(Key::k);
     finish_saving();
     const fs::path file = elsewhere.path() / "room-camera.json";
-    EXPECT_FALSE(fs::exists(folder.path() / "room-camera.json")) << "the scene's folder is not the user's desk";
+    EXPECT_FALSE(fs::exists(folder.path() / "room-camera.json")) << "the scene's folder is not used";
     EXPECT_TRUE(read_camera(file) == state().camera.camera());
     EXPECT_NE(newest().find(file.string()), std::string::npos) << newest();
     EXPECT_EQ(state().messages.back().kind, Message::Kind::note);
@@ -57,7 +57,7 @@ TEST_F(CameraActions, SavesInTheCurrentFolderWithoutASceneFile) {
     EXPECT_TRUE(read_camera(elsewhere.path() / "tessera-camera.json") == state().camera.camera());
 }
 
-TEST_F(CameraActions, SayWhyNothingCouldBeSaved) {
+TEST_F(CameraActions, ReportWhySavingFails) {
     const fs::path gone = fs::current_path() / "gone";
     fs::create_directory(gone);
     fs::current_path(gone);

@@ -1,5 +1,5 @@
-// Drags turn the camera about what is under the mouse; a double click looks at it; a right click opens a menu; and
-// views are kept as bookmarks.
+// A drag rotates the camera about the point under the mouse. A double click centres that point. A right click
+// opens a menu. Bookmarks store views.
 #include "render/run/first_hits.h"
 #include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
@@ -21,12 +21,12 @@ namespace {
 struct CameraHold : testing::Test, ViewerHarness {
     CameraHold() { rest(2); }
 
-    /// A place over the picture of the second pane, as a share of it.
+    /// Returns a screen position over the second pane's picture, given as fractions of its area.
     glm::vec2 at(float x, float y) const {
         const ControlRect r = place("pane1.picture");
         return r.min + (r.max - r.min) * glm::vec2(x, y);
     }
-    /// What is seen at that share of the picture, which fills the pane's width.
+    /// Returns the visible point there. The picture fills the pane's width.
     glm::vec3 seen(float x, float y) {
         const glm::ivec2 size = state().request_size();
         const ControlRect r = place("pane1.picture");
@@ -44,12 +44,13 @@ struct CameraHold : testing::Test, ViewerHarness {
     }
 };
 
-TEST_F(CameraHold, ADragTurnsAboutWhatIsUnderTheMouse) {
+TEST_F(CameraHold, ADragOrbitsThePointUnderTheMouse) {
     const glm::vec3 held = seen(0.3f, 0.55f), before = in_camera(held), from = state().camera.position();
     drag(at(0.3f, 0.55f), {60, 15});
     EXPECT_GT(glm::length(state().camera.position() - from), 0.05f);
-    EXPECT_LT(glm::length(in_camera(held) - before), 0.02f * glm::length(before)) << "it stays where it was seen";
-    // Another drag holds something else; a click alone changes nothing that could be undone.
+    EXPECT_LT(glm::length(in_camera(held) - before), 0.02f * glm::length(before))
+        << "the point stays in place on the screen";
+    // Another drag orbits another point. A click adds no step to the history.
     rest(2);
     const Camera camera = state().camera.camera();
     const float distance = state().camera.distance();
@@ -61,7 +62,7 @@ TEST_F(CameraHold, ADragTurnsAboutWhatIsUnderTheMouse) {
     EXPECT_LT(glm::length(in_camera(other) - other_before), 0.02f * glm::length(other_before));
 }
 
-TEST_F(CameraHold, ADoubleClickLooksAtWhatIsUnderTheMouse) {
+TEST_F(CameraHold, ADoubleClickCentresThePointUnderTheMouse) {
     const glm::vec3 point = seen(0.25f, 0.6f), from = state().camera.position();
     move_to(at(0.25f, 0.6f));
     for (int i = 0; i < 2; ++i) {
@@ -93,7 +94,7 @@ TEST_F(CameraHold, ARightClickOpensAMenuAndADragDoesNot) {
     EXPECT_TRUE(state().camera.camera() == before);
 }
 
-TEST_F(CameraHold, BookmarksComeBackAlsoFromSavedSettings) {
+TEST_F(CameraHold, BookmarksAreRestoredAlsoFromSettings) {
     const Camera first = state().camera.camera();
     type(Key::f7, false, true);
     state().camera.orbit({40, 5}, 300);
@@ -101,7 +102,7 @@ TEST_F(CameraHold, BookmarksComeBackAlsoFromSavedSettings) {
     type(Key::f7, false, true);
     const std::string saved = settings_json(state());
     type(Key::f7);
-    EXPECT_TRUE(state().camera.camera() == first) << "round from the last";
+    EXPECT_TRUE(state().camera.camera() == first) << "after the last comes the first";
     type(Key::f7, true);
     EXPECT_EQ(state().bookmarks.views.size(), 1u);
     apply_settings_json(state(), saved, "saved");
@@ -115,7 +116,7 @@ TEST_F(CameraHold, BookmarksComeBackAlsoFromSavedSettings) {
                  std::exception);
 }
 
-TEST_F(CameraHold, TheFieldOfViewIsSetInThePanel) {
+TEST_F(CameraHold, ThePanelSetsTheFieldOfView) {
     const float before = state().camera.camera().fov;
     reveal("fov");
     click_at("fov", 0.9f);

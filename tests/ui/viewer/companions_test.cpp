@@ -1,4 +1,4 @@
-// Buffers that need more than a snapshot: errors to a reference, first hits.
+// Buffers that need data beside snapshots: errors against a reference, first hits.
 
 #include "render/io/exr.h"
 #include "render/run/first_hits.h"
@@ -21,7 +21,7 @@ struct CompanionsTest : testing::Test, ViewerHarness {
     CompanionsTest() { rest(3); }
     ~CompanionsTest() override { std::filesystem::remove(file_); }
 
-    /// A grey image of so many pixels, loaded by dropping it.
+    /// Drops a grey reference of this size on the window.
     void drop_reference(glm::ivec2 size, float value) {
         write_exr(file_, {{{"", RgbImage(size.x, size.y, Rgb(value))}}, {}});
         viewer.drop({file_});
@@ -29,7 +29,7 @@ struct CompanionsTest : testing::Test, ViewerHarness {
         frames(3);
     }
 
-    /// Whether there are whole first hits other than these.
+    /// Whether the state has complete first hits other than these.
     bool is_other_than(const std::shared_ptr<const FirstHits>& before) {
         const auto& hits = state().companions.first_hits;
         return hits && hits != before && hits->depth.width() == 48;
@@ -39,7 +39,7 @@ struct CompanionsTest : testing::Test, ViewerHarness {
         std::filesystem::temp_directory_path() / ("tessera-reference-" + std::to_string(::getpid()) + ".exr");
 };
 
-TEST_F(CompanionsTest, ErrorsToADroppedReference) {
+TEST_F(CompanionsTest, ErrorsAgainstADroppedReference) {
     type(Key::digit7);
     EXPECT_TRUE(viewer.pictures().image(0).empty());
     save("no-reference.png");
@@ -54,7 +54,7 @@ TEST_F(CompanionsTest, ErrorsToADroppedReference) {
     EXPECT_TRUE(viewer.pictures().image(1).range().logarithmic);
     save("error.png");
 
-    // Dragging keeps the range logarithmic, and for all panes alike.
+    // After a drag, the range remains logarithmic and common to all panes.
     const ControlRect legend = place("pane0.legend");
     drag({legend.max.x - 20, legend.max.y - 11}, {30, 0});
     const ValueRange range = state().display.ranges.at(Buffer::error_relative_squared);
@@ -64,7 +64,7 @@ TEST_F(CompanionsTest, ErrorsToADroppedReference) {
     EXPECT_EQ(pane(1).settings.buffer, Buffer::error_absolute);
 }
 
-TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
+TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItsSize) {
     command("Error: squared");
     drop_reference({40, 20}, 0.5f);
     EXPECT_TRUE(viewer.pictures().image(0).empty());
@@ -77,7 +77,7 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSizeOffersItself) {
     EXPECT_FALSE(has("reference_size"));
 }
 
-TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
+TEST_F(CompanionsTest, TheReferenceCanBeShownAndCompared) {
     type(Key::digit8);
     EXPECT_EQ(pane(0).settings.buffer, Buffer::reference);
     EXPECT_TRUE(viewer.pictures().image(0).empty());
@@ -93,7 +93,7 @@ TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
     EXPECT_EQ(value_at(showing_at(state(), 0, 0.9f), viewer.pictures().images(), {0.9f, 0.4f}), Rgb(0.25f));
     EXPECT_EQ(label_of(showing_at(state(), 0, 0.9f), state()), "Reference");
     state().display.show_tiles = state().display.magnifier = state().inspector.active =
-        true; // which ask for a pane
+        true; // these use the pane under the mouse
     const ControlRect rect = place("pane0.picture");
     click(rect.min + (rect.max - rect.min) * glm::vec2(0.7f, 0.5f));
     EXPECT_EQ(state().inspector.sample->slot, 0);
@@ -108,7 +108,7 @@ TEST_F(CompanionsTest, TheReferenceItselfIsShownAndComparedWith) {
     frames(2);
     EXPECT_EQ(showing_at(state(), 0, 0.5f).pane, the_reference);
     viewer.keyboard().release(Key::b);
-    type(Key::digit1, true); // one pane has it to compare with, and no other
+    type(Key::digit1, true); // a single pane can be compared with the reference only
     EXPECT_EQ(state().compared_with(0), the_reference);
     EXPECT_TRUE(has("compare"));
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -126,7 +126,7 @@ TEST_F(CompanionsTest, TheHalvesOfAReferenceAreRead) {
     EXPECT_EQ(reference.mean, luminance(Rgb(0.5f)));
 }
 
-TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsTakenAndSaid) {
+TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsLoadedWithAMessage) {
     const auto load = [&](const std::string& scene) {
         const auto before = state().companions.reference;
         write_exr(file_, {{{"", RgbImage(48, 36, Rgb(0.5f))}}, {{"tessera:scene", scene}}});
@@ -140,7 +140,7 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsTakenAndSaid) {
     };
     SceneChecksums sums = checksums_of(state().scene->description(), state().camera.camera());
     load(to_string(sums));
-    load("nonsense"); // as one that says nothing
+    load("nonsense"); // a file without scene checksums
     const auto plain = state().companions.reference;
     EXPECT_FALSE(plain->scene);
     ++sums.lights;
@@ -151,16 +151,16 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsTakenAndSaid) {
     frames(2);
     save("reference-of-another-scene.png");
     viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
-    EXPECT_TRUE(wait_until([&] { return said() == 0; })) << "that was of the other scene";
-    EXPECT_TRUE(wait_until([&] { return said() == 1; })) << "and is true of this one as well";
+    EXPECT_TRUE(wait_until([&] { return said() == 0; })) << "the message belonged to the other scene";
+    EXPECT_TRUE(wait_until([&] { return said() == 1; })) << "the reference differs from this scene, too";
 }
 
-TEST_F(CompanionsTest, ReadingAReferenceIsToldAndGivenUp) {
+TEST_F(CompanionsTest, ReadingAReferenceShowsProgressAndCanBeCancelled) {
     drop_reference({48, 36}, 0.5f);
     const auto before = state().companions.reference;
     const auto expect_given_up = [&] {
         EXPECT_FALSE(state().reference_read);
-        EXPECT_NE(state().messages.back().text.find("was given up"), std::string::npos);
+        EXPECT_NE(state().messages.back().text.find("was cancelled"), std::string::npos);
         frames(20);
         EXPECT_EQ(state().companions.reference, before);
         EXPECT_FALSE(has("reading"));
@@ -168,16 +168,16 @@ TEST_F(CompanionsTest, ReadingAReferenceIsToldAndGivenUp) {
     };
     viewer.drop({file_});
     frame();
-    ASSERT_TRUE(state().reference_read); // whether it is through by now or not, it has not been looked at
+    ASSERT_TRUE(state().reference_read); // complete or not, its outcome is not taken yet
     viewer.keyboard().press(Key::escape, Key::escape, false, false);
     viewer.keyboard().release(Key::escape);
     frame();
-    EXPECT_TRUE(has("reading")); // as it was at the frame's beginning
+    EXPECT_TRUE(has("reading")); // drawn from the state at the beginning of the frame
     save("reading.png");
     frame();
     expect_given_up();
 
-    state().layout.show_help = true; // which Esc closes alone
+    state().layout.show_help = true; // Esc only closes the help
     viewer.drop({file_});
     frame();
     viewer.keyboard().press(Key::escape, Key::escape, false, false);
@@ -187,14 +187,14 @@ TEST_F(CompanionsTest, ReadingAReferenceIsToldAndGivenUp) {
     EXPECT_FALSE(state().reference_read);
 }
 
-TEST_F(CompanionsTest, ABrokenReferenceIsAMessage) {
+TEST_F(CompanionsTest, ABrokenReferenceGivesAMessage) {
     viewer.drop({"/nowhere/reference.exr"});
     wait_until([&] { return !state().messages.empty(); });
     EXPECT_NE(state().messages.back().text.find("/nowhere/reference.exr"), std::string::npos);
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
 }
 
-TEST_F(CompanionsTest, FootprintsComeWhenOneIsToBeSeen) {
+TEST_F(CompanionsTest, FootprintsAreTracedWhenShown) {
     state().panes[0].settings.buffer = Buffer::depth;
     wait_until([&] {
         const auto& hits = state().companions.first_hits;
@@ -213,10 +213,10 @@ TEST_F(CompanionsTest, FootprintsComeWhenOneIsToBeSeen) {
 }
 
 TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
-    EXPECT_EQ(state().companions.first_hits, nullptr); // only if one is to be seen
+    EXPECT_EQ(state().companions.first_hits, nullptr); // no pane shows them
     command("Depth");
     EXPECT_EQ(pane(0).settings.buffer, Buffer::depth);
-    std::vector<int> widths; // a quarter comes first
+    std::vector<int> widths; // a preview with a quarter of the width comes first
     wait_until([&] {
         const auto& hits = state().companions.first_hits;
         if (hits && (widths.empty() || widths.back() != hits->depth.width()))
@@ -228,7 +228,7 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     const auto before = state().companions.first_hits;
     EXPECT_NEAR(before->depth(24, 30), 3.5f, 1.5f);
     EXPECT_GT(brightness("pane0.picture"), 10);
-    EXPECT_TRUE(has("pane0.legend")); // path tracing, too
+    EXPECT_TRUE(has("pane0.legend")); // also for PT
     save("depth.png");
     state().camera.dolly(0.5f);
     wait_until([&] { return is_other_than(before); });
@@ -243,20 +243,20 @@ TEST_F(CompanionsTest, FirstHitsFollowTheCamera) {
     state().camera.go_home();
     wait_until([&] { return is_other_than(near); });
     frames(2);
-    // The red wall's, wherever the light is.
+    // The albedo of the red wall does not depend on light.
     const Rgb red = viewer.pictures().image(0).pixels()(1, 18);
     EXPECT_NEAR(red.r, 0.63f, 0.02f);
     EXPECT_NEAR(red.g, 0.065f, 0.01f);
 }
 
-TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
+TEST_F(CompanionsTest, FirstHitsOfAnOlderViewAreMarked) {
     const auto legend_width = [&] {
         const ControlRect rect = place("pane0.legend");
         return rect.max.x - rect.min.x;
     };
-    command("Depth"); // depth
+    command("Depth");
     wait_until([&] { return is_other_than(nullptr); });
-    EXPECT_EQ(viewer.next_frame_in(), 0); // in which they are to be seen
+    EXPECT_EQ(viewer.next_frame_in(), 0); // the next frame shows them
     frames(3);
     EXPECT_GT(viewer.next_frame_in(), 1);
     EXPECT_FALSE(state().companions.first_hits_are_earlier);
@@ -271,11 +271,11 @@ TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
     frames(2);
     EXPECT_EQ(legend_width(), unmarked);
 
-    // Albedo has no legend but for this.
+    // Albedo has no other legend.
     command("Albedo");
     frames(2);
     EXPECT_FALSE(has("pane0.legend"));
-    state().companions.first_hits_are_earlier = true; // until the next look at them
+    state().companions.first_hits_are_earlier = true; // until the next update
     frame();
     EXPECT_TRUE(has("pane0.legend"));
     save("earlier-albedo.png");
@@ -283,12 +283,12 @@ TEST_F(CompanionsTest, FirstHitsOfAnEarlierViewAreMarked) {
     EXPECT_FALSE(has("pane0.legend"));
 }
 
-TEST_F(CompanionsTest, FirstHitsOfAnotherSceneAreDroppedAndHoldNone) {
+TEST_F(CompanionsTest, FirstHitsOfAReplacedSceneAreDropped) {
     command("Depth");
     wait_until([&] { return is_other_than(nullptr); });
     const std::weak_ptr<const Scene> before = state().scene;
     const auto old = state().companions.first_hits;
-    type(Key::digit1); // nobody wants any now
+    type(Key::digit1); // no pane shows them
     viewer.load("another", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     wait_until([&] { return state().scene != before.lock() && viewer.settled(3); });
     frames(2);

@@ -1,5 +1,4 @@
-// Automatic exposure, the list of commands, undo by keys, what is said over the pictures, where panes lie,
-// presets.
+// Automatic exposure, command palette, undo by keys, toasts, arrangement of panes, presets.
 
 #include "render/scene/scene.h"
 #include "tests/ui/drawing/panes_fixture.h"
@@ -19,7 +18,7 @@
 namespace tessera::test {
 namespace {
 
-TEST_F(Panes, OneKeyFindsTheExposureOfWhatIsShown) {
+TEST_F(Panes, AutomaticExposureFitsTheShownPicture) {
     const double good = brightness("pane1.picture");
     state().display.tone.exposure = -9;
     frames(2);
@@ -38,11 +37,11 @@ TEST_F(Panes, OneKeyFindsTheExposureOfWhatIsShown) {
     EXPECT_EQ(state().display.tone.exposure, of_picture);
     EXPECT_GT(state().display.tone.difference_exposure, 0) << "gradients are darker";
     EXPECT_GT(brightness("pane1.picture"), dim + 3);
-    EXPECT_EQ(brightness("pane0.picture"), other) << "the picture beside them stays as it is";
+    EXPECT_EQ(brightness("pane0.picture"), other) << "the other picture does not change";
     save("gradients-exposed.png");
     type(Key::z, true);
     frames(2);
-    EXPECT_EQ(state().display.tone.difference_exposure, 0) << "it can be taken back";
+    EXPECT_EQ(state().display.tone.difference_exposure, 0) << "it can be undone";
     type(Key::digit0);
     state().panes[1].settings.buffer = Buffer::reused;
     state().display.ranges[Buffer::reused] = {0, 1e6f, false};
@@ -52,7 +51,7 @@ TEST_F(Panes, OneKeyFindsTheExposureOfWhatIsShown) {
     EXPECT_LT(state().display.ranges[Buffer::reused].high, 1e4f);
 }
 
-TEST_F(Panes, CommandsAreFoundByWords) {
+TEST_F(Panes, CommandsAreFoundByText) {
     type(Key::p, true, true);
     ASSERT_TRUE(has("palette.text"));
     frames(2);
@@ -67,19 +66,19 @@ TEST_F(Panes, CommandsAreFoundByWords) {
     EXPECT_FALSE(has("palette.text"));
     EXPECT_EQ(state().panes.size(), 4u);
     type(Key::p, true, true);
-    EXPECT_TRUE(has("palette/Quit")) << "it begins without words";
+    EXPECT_TRUE(has("palette/Quit")) << "the search text is empty at first";
     type(Key::down);
     type(Key::escape);
     EXPECT_FALSE(has("palette.text"));
 
     const Method method = state().active().settings.render.method;
     state().layout.show_palette = true;
-    type(Key::m); // before its text has the keyboard
+    type(Key::m); // before the text field has the focus
     EXPECT_EQ(state().active().settings.render.method, method);
     EXPECT_TRUE(state().layout.show_palette);
 }
 
-TEST_F(Panes, TheHelpIsFoundByWords) {
+TEST_F(Panes, TheHelpIsFilteredByText) {
     state().layout.show_help = true;
     frames(3);
     ASSERT_TRUE(has("help.text"));
@@ -94,15 +93,15 @@ TEST_F(Panes, TheHelpIsFoundByWords) {
     std::size_t changed = 0;
     for (std::size_t i = 0; i < all.rgb.size(); ++i)
         changed += all.rgb[i] != found.rgb[i];
-    EXPECT_GT(changed, 20000u) << "what was not looked for is gone";
+    EXPECT_GT(changed, 20000u) << "other lines are hidden";
     EXPECT_TRUE(state().layout.show_help);
-    type(Key::escape); // ends the text
+    type(Key::escape); // leaves the text field
     type(Key::escape);
     frames(2);
     EXPECT_FALSE(has("help.text"));
 }
 
-TEST_F(Panes, ChangesAreTakenBackByKeys) {
+TEST_F(Panes, KeysUndoChanges) {
     frames(3);
     const Camera before = state().camera.camera();
     drag(point(0, 0.4f, 0.4f), {60, 10});
@@ -115,7 +114,7 @@ TEST_F(Panes, ChangesAreTakenBackByKeys) {
     EXPECT_TRUE(state().camera.camera() == after);
 }
 
-TEST(Toast, SaysWhereAFileIsAndGoes) {
+TEST(Toast, ShowsTheSavedFileAndDisappears) {
     const CurrentFolder folder;
     ViewerHarness h;
     h.rest(1);
@@ -132,7 +131,7 @@ TEST(Toast, SaysWhereAFileIsAndGoes) {
     EXPECT_FALSE(h.state().messages.empty()) << "the message stays in the list";
 }
 
-/// Whether two panes lie one above the other, of a scene with a film of that size.
+/// Whether two panes lie above each other for a scene with this film size.
 bool are_stacked(ViewerHarness& h, glm::ivec2 film) {
     h.viewer.load("film", [film](SceneNotes&, LoadProgress&) {
         SceneDescription description = viewer_scene()->description();
@@ -145,7 +144,7 @@ bool are_stacked(ViewerHarness& h, glm::ivec2 film) {
     return h.place("pane0.picture").max.y <= h.place("pane1.picture").min.y;
 }
 
-TEST(PanesByAspect, TwoLieSoThatTheirPicturesAreLarger) {
+TEST(PanesByAspect, TwoPanesMaximisePictureSize) {
     ViewerHarness h({1440, 810});
     EXPECT_TRUE(are_stacked(h, {320, 120}));
     EXPECT_FALSE(are_stacked(h, {200, 200}));
@@ -154,13 +153,13 @@ TEST(PanesByAspect, TwoLieSoThatTheirPicturesAreLarger) {
     EXPECT_LE(h.place("pane0.picture").max.y, h.place("pane1.picture").min.y) << "a narrow window";
 }
 
-TEST_F(Panes, PresetsMarkWhatDiffersAndBringItBack) {
+TEST_F(Panes, PresetsMarkDifferencesAndResetThem) {
     state().active_pane = 1;
     choose("preset", "bauszat2017");
     frames(2);
     EXPECT_EQ(preset_of(pane(1).settings), state().preset);
     EXPECT_EQ(pane(1).settings.render.rr_delta, 0.1f);
-    EXPECT_EQ(pane(0).settings.render.roulette, RouletteKind::absolute) << "all have the same";
+    EXPECT_EQ(pane(0).settings.render.roulette, RouletteKind::absolute) << "linked panes have the same settings";
     EXPECT_TRUE(has("rr_delta"));
     click_at("tile", 0.99f);
     ASSERT_NE(pane(1).settings.render.tile, 6);
@@ -175,17 +174,17 @@ TEST_F(Panes, PresetsMarkWhatDiffersAndBringItBack) {
     click_at("tile", 0.99f);
     ASSERT_NE(pane(1).settings.render.tile, 6);
     choose("preset", "bauszat2017");
-    EXPECT_EQ(pane(1).settings.render.tile, 6) << "chosen anew";
+    EXPECT_EQ(pane(1).settings.render.tile, 6) << "chosen again";
 }
 
-TEST(PaneHeaders, HaveTileAndNormOfTheirOwn) {
+TEST(PaneHeaders, SetTileAndNormOfOnePane) {
     ViewerHarness h({1600, 900});
     h.rest(1);
-    EXPECT_FALSE(h.has("pane0.tile")) << "PT has none";
+    EXPECT_FALSE(h.has("pane0.tile")) << "PT has no tiles";
     ASSERT_TRUE(h.has("pane1.tile"));
     h.choose("pane1.norm", "l1");
     EXPECT_EQ(h.pane(1).settings.reconstruction.norm, Norm::l1);
-    EXPECT_FALSE(h.state().linked) << "it is this pane's alone";
+    EXPECT_FALSE(h.state().linked) << "the change applies to this pane only";
     EXPECT_NE(h.pane(0).settings.reconstruction.norm, Norm::l1);
     h.choose("pane1.tile", "3");
     EXPECT_EQ(h.pane(1).settings.render.tile, 3);
@@ -200,7 +199,7 @@ TEST(PaneHeaders, AClickSwitchesBetweenRawSamplesAndTheDenoiser) {
     ASSERT_EQ(norm(1), Norm::guided);
     h.click("pane1.denoised");
     EXPECT_EQ(norm(1), Norm::none);
-    EXPECT_FALSE(h.state().linked) << "it is this pane's alone";
+    EXPECT_FALSE(h.state().linked) << "the change applies to this pane only";
     h.click("pane0.denoised");
     EXPECT_EQ(norm(0), Norm::smoothed);
     EXPECT_EQ(norm(1), Norm::none);

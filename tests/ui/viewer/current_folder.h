@@ -7,7 +7,7 @@
 
 namespace tessera::test {
 
-/// A folder of its own that is the current one while this lives.
+/// A temporary folder that is the current one during the object's lifetime.
 struct CurrentFolder {
     CurrentFolder() {
         std::filesystem::create_directories(path);

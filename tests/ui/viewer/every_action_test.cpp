@@ -1,4 +1,4 @@
-// Every action of the table, by its menu and by its keys: what it changes, and that it is seen.
+// Each action of the table, by menu and by keys: its effect on the state and on the screen.
 
 #include "render/io/exr.h"
 #include "tests/ui/viewer/current_folder.h"
@@ -21,9 +21,9 @@ namespace tessera::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int samples = 3; // at which panes rest
+constexpr int samples = 3; // per pixel at which panes stop
 
-/// A change that can be taken back.
+/// Makes a change that can be undone.
 void note_two_exposures(ViewerState& s) {
     s.history = {};
     s.history.note(s, false);
@@ -31,7 +31,7 @@ void note_two_exposures(ViewerState& s) {
     s.history.note(s, false);
 }
 
-/// What must be so before an action, as it would change nothing otherwise.
+/// Preparations without which an action would change nothing.
 const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Result",
      [](ViewerState& s) { s.panes[0].settings.buffer = s.panes[1].settings.buffer = Buffer::dx; }},
@@ -44,7 +44,7 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Fit picture", [](ViewerState& s) { s.set_view(ImageView(2, {0.4f, 0.5f})); }},
     {"Smaller text", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
     {"Default text size", [](ViewerState& s) { s.layout.text_factor = 1.25f; }},
-    {"Step one pass", [](ViewerState& s) { s.wishes.restart = true; }}, // it may have been done before
+    {"Step one pass", [](ViewerState& s) { s.wishes.restart = true; }}, // a step may be complete already
     {"Two panes", [](ViewerState& s) { s.set_pane_count(4); }},
     {"Reset camera", [](ViewerState& s) { s.camera.orbit({40, 10}, 100); }},
     {"Next bookmark",
@@ -66,10 +66,10 @@ const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
     {"Next tile", [](ViewerState& s) { s.set_slow_motion(true); }},
 };
 
-/// What may change no pixel of the window, in the end.
+/// Actions that may change no pixel of the window.
 const std::set<std::string> unseen = {"Restart", "Quit"};
 
-/// In the order of the table.
+/// Returns the names of the menus, in the order of the table.
 std::vector<std::string> menus() {
     std::vector<std::string> names;
     for (const Action& action : actions()) {
@@ -93,16 +93,17 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         plain = state();
     }
 
-    /// Until whatever an action has set off is done.
+    /// Waits until all work of an action is done.
     void settle(int spp) {
         wait_until([&] {
             const SlowMotion& motion = state().slow_motion;
             return viewer.settled(spp) && (!motion.active || motion.shows_choice());
         });
         finish_saving();
-        move_to({static_cast<float>(context.size().x) * 0.7f, 5}); // where nothing is
-        wait_until(
-            [&] { return viewer.next_frame_in() > 0.1 || state().slow_motion.is_playing(); }); // 0.2: a cursor
+        move_to({static_cast<float>(context.size().x) * 0.7f, 5}); // where there is no control
+        wait_until([&] {
+            return viewer.next_frame_in() > 0.1 || state().slow_motion.is_playing();
+        }); // 0.2: a blinking cursor
         frames(2);
     }
 
@@ -110,7 +111,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         for (const auto& file : fs::directory_iterator(fs::current_path()))
             fs::remove_all(file);
         ImGui::SetClipboardText("");
-        const SlowMotion found = state().slow_motion; // which asks for nothing twice
+        const SlowMotion found = state().slow_motion; // so that its tile is not traced again
         state() = plain;
         state().slow_motion.tile = found.tile;
         state().slow_motion.slot = found.slot;
@@ -118,13 +119,13 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         if (const auto prepare = preparations.find(action); prepare != preparations.end())
             prepare->second(state());
         state().slow_motion.held = true;
-        frames(2); // in which it is asked for
+        frames(2); // in which the request is sent
         settle(samples);
         scenes = state().scene_info.shown;
         generation = state().active().generation;
     }
 
-    /// All that an action may change, and files that it may write, as text.
+    /// Returns all that an action may change, and the files that it may write, as text.
     std::string effects() {
         const ViewerState& s = state();
         std::multiset<std::string> files;
@@ -164,7 +165,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         }
     }
 
-    /// What the action brings about in that way, and whether it is seen.
+    /// Returns the effect of the action in this way, and expects a visible change.
     std::string done_by(const Action& action, const std::string& way, const std::function<void()>& run) {
         SCOPED_TRACE(action.name);
         start_from(action.name);
@@ -183,18 +184,17 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
     }
 
     CurrentFolder folder;
-    ViewerState plain; // two panes at rest
+    ViewerState plain; // the state of two panes at rest
     int scenes = 0;
     std::uint64_t generation = 0;
 };
 
-TEST_P(EveryAction, DoesTheSameByMenuAndByKeysAndIsSeen) {
+TEST_P(EveryAction, HasTheSameVisibleEffectByMenuAndByKeys) {
     for (const Action& action : actions()) {
         if (action.menu != GetParam())
             continue;
         const std::string menu = "menu " + GetParam();
-        start_from(
-            action.name); // so that no way is the first, which waits for what is found out in the background
+        start_from(action.name); // waits for background results, so that neither way is the first
         const std::string by_menu = done_by(action, "menu", [&] {
             if (!is_in_menu(action))
                 return command(action.name);
@@ -212,7 +212,7 @@ TEST_P(EveryAction, DoesTheSameByMenuAndByKeysAndIsSeen) {
 
 INSTANTIATE_TEST_SUITE_P(Menus, EveryAction, testing::ValuesIn(menus()), [](const auto& menu) {
     std::string name = menu.param;
-    std::erase(name, ' '); // which a test's name may not have
+    std::erase(name, ' '); // not allowed in a test name
     return name;
 });
 

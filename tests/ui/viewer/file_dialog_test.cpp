@@ -1,4 +1,4 @@
-// The dialog that chooses a file, and what it lists.
+// The file dialog and its list.
 
 #include "render/io/exr.h"
 #include "tests/ui/viewer/current_folder.h"
@@ -41,7 +41,7 @@ struct FileList : testing::Test {
     CurrentFolder folder;
 };
 
-TEST_F(FileList, HasFoldersAndFilesOfAKind) {
+TEST_F(FileList, HasFoldersAndFilesWithTheExtension) {
     EXPECT_EQ(names(all()), (Names{".hidden/", "Kiosk/", "kitchen/", "kites/", ".dot.xml", "b.XML", "kiln.xml"}));
     EXPECT_EQ(names(beginning_with(all(), "")), (Names{"Kiosk/", "kitchen/", "kites/", "b.XML", "kiln.xml"}));
     EXPECT_EQ(names(beginning_with(all(), "KI")), (Names{"Kiosk/", "kitchen/", "kites/", "kiln.xml"}));
@@ -51,14 +51,14 @@ TEST_F(FileList, HasFoldersAndFilesOfAKind) {
     EXPECT_NE(error.find("none"), std::string::npos);
 }
 
-TEST_F(FileList, CompletesWhatIsCommon) {
+TEST_F(FileList, CompletesTheCommonPrefix) {
     EXPECT_EQ(common_beginning(beginning_with(all(), "kit")), "kit");
     EXPECT_EQ(common_beginning(beginning_with(all(), "kitc")), "kitchen/");
     EXPECT_EQ(common_beginning(beginning_with(all(), "kil")), "kiln.xml");
     EXPECT_EQ(common_beginning({}), "");
 }
 
-TEST_F(FileList, ReadsPathsAsTheyAreTyped) {
+TEST_F(FileList, ReadsTypedPaths) {
     EXPECT_EQ(typed_path("kit").folder, folder.path);
     EXPECT_EQ(typed_path("kit").beginning, "kit");
     EXPECT_EQ(typed_path("kitchen/").folder.lexically_relative(folder.path), "kitchen/");
@@ -100,7 +100,7 @@ TEST_F(Dialog, OpensASceneByClicks) {
     EXPECT_EQ(opened, std::vector<std::string>{(folder.path / "scenes" / "room.xml").string()});
     h.frames(3);
     EXPECT_FALSE(h.has("file.path"));
-    h.type(Key::o, true); // it begins where the scene is
+    h.type(Key::o, true); // it begins in the scene's folder
     h.frames(2);
     EXPECT_TRUE(h.has("file/room.xml"));
     h.type(Key::escape);
@@ -108,7 +108,7 @@ TEST_F(Dialog, OpensASceneByClicks) {
     EXPECT_FALSE(h.has("file.path"));
 }
 
-TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
+TEST_F(Dialog, LoadsSettingsAndReportsBrokenFiles) {
     ViewerHarness h({1280, 720}, 1, options);
     h.rest(2);
     h.state().panes[0].settings.render.tile = 3;
@@ -135,14 +135,14 @@ TEST_F(Dialog, LoadsSettingsAndNamesWhatIsBroken) {
     EXPECT_EQ(h.pane(0).settings.render.tile, 3);
 }
 
-TEST_F(Dialog, HasTheKeyboardAlone) {
+TEST_F(Dialog, BlocksOtherShortcuts) {
     std::ofstream("scenes/other.xml") << "";
     ViewerHarness h({1280, 720}, 1, options);
     h.rest(2);
     const Camera camera = h.state().camera.camera();
     h.type(Key::o, true);
     h.frames(2);
-    h.click_at("file/scenes", 0.1f); // takes the focus
+    h.click_at("file/scenes", 0.1f); // sets the focus
     h.viewer.keyboard().press(Key::w, Key::w, false, false);
     h.viewer.keyboard().press(Key::b, Key::b, false, false);
     h.frames(3);
@@ -157,11 +157,11 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     EXPECT_FALSE(h.state().rendering.paused);
     EXPECT_EQ(h.state().layout.theme, Theme::dark);
     ASSERT_TRUE(h.has("file/other.xml"));
-    ImGui::GetIO().AddInputCharacter('r'); // what is typed goes on after the folder
+    ImGui::GetIO().AddInputCharacter('r'); // typed text is appended to the folder
     h.frames(3);
     EXPECT_TRUE(h.has("file/room.xml"));
     EXPECT_FALSE(h.has("file/other.xml"));
-    h.type(Key::q, true); // but for the program's end
+    h.type(Key::q, true); // except the shortcut that quits
     h.frames(2);
     EXPECT_TRUE(h.state().wishes.quit);
     h.type(Key::escape);
@@ -169,14 +169,15 @@ TEST_F(Dialog, HasTheKeyboardAlone) {
     EXPECT_FALSE(h.state().layout.choosing.has_value());
 }
 
-TEST_F(Dialog, AReferenceIsNamedInFull) {
+TEST_F(Dialog, AReferenceHasAnAbsoluteName) {
     write_exr("r.exr", {{{"", RgbImage(48, 36, Rgb(1))}}, {}});
     ViewerHarness h({1280, 720}, 1, options);
     h.rest(2);
     h.state().wishes.open_reference = "./r.exr";
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
     EXPECT_EQ(h.state().companions.reference->name, (folder.path / "r.exr").string());
-    EXPECT_EQ(h.state().messages.back().text, "The reference is now r.exr"); // shown as it is called from here
+    EXPECT_EQ(h.state().messages.back().text,
+              "Loaded the reference r.exr"); // shown relative to the current folder
     EXPECT_EQ(short_path((folder.path / "a" / "r.exr").string()), "a/r.exr");
     EXPECT_EQ(short_path("/elsewhere/r.exr"), "/elsewhere/r.exr");
     EXPECT_EQ(short_path(folder.path.string() + "-2/r.exr"), folder.path.string() + "-2/r.exr");
@@ -194,15 +195,15 @@ TEST_F(Dialog, OpensAReferenceAndCanBeCancelled) {
     EXPECT_EQ(h.state().companions.reference, nullptr);
     h.type(Key::r, true);
     h.frames(2);
-    h.click("file.open"); // nothing is chosen yet
+    h.click("file.open"); // no file is chosen
     EXPECT_TRUE(h.state().layout.choosing.has_value());
     h.click_at("file/r.exr", 0.1f);
     h.click("file.open");
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
 }
 
-/// A window that appears after the dialog in a frame is more than Dear ImGui 1.86 bears: the dialog comes last.
-TEST_F(Dialog, ASceneCanBeOnItsWayBehindIt) {
+/// Dear ImGui 1.86 fails if a window first appears after a modal one in a frame, so the dialog is drawn last.
+TEST_F(Dialog, ASceneCanLoadBehindIt) {
     ViewerHarness h({1280, 720}, 1, options);
     h.rest(2);
     std::atomic<bool> through = false;

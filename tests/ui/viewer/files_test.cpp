@@ -1,4 +1,4 @@
-// Settings that are saved and taken back.
+// Settings files.
 
 #include "render/io/files.h"
 #include "render/io/text.h"
@@ -23,7 +23,7 @@ struct SettingsFile : testing::Test, ViewerHarness {
     CurrentFolder folder;
 };
 
-TEST_F(SettingsFile, ComesBackAsItWas) {
+TEST_F(SettingsFile, RestoresAllSettings) {
     load_scene();
     state().linked = false;
     state().set_pane_count(4);
@@ -59,7 +59,7 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     other.camera.set_home(state().scene->camera(), state().scene->center(), state().scene->radius());
     apply_settings_json(other, text, "settings.json");
     ASSERT_EQ(other.panes.size(), 4u);
-    EXPECT_TRUE(other.messages.empty()) << other.messages.front().text; // no field is unknown
+    EXPECT_TRUE(other.messages.empty()) << other.messages.front().text; // all fields are known
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_TRUE(other.panes[i].settings == settings[i]) << i;
     EXPECT_FALSE(other.linked);
@@ -79,7 +79,7 @@ TEST_F(SettingsFile, ComesBackAsItWas) {
     EXPECT_EQ(settings_json(other), text);
 }
 
-TEST_F(SettingsFile, ACameraAloneIsTurnedAboutTheScene) {
+TEST_F(SettingsFile, ACameraFileSetsCameraAndTargetDistance) {
     load_scene();
     const CameraControl home = state().camera;
     const std::string camera = camera_json(home.camera());
@@ -93,13 +93,13 @@ TEST_F(SettingsFile, TheReferenceIsLoadedAgain) {
     state().companions.reference = std::make_shared<Reference>(Reference{"room.exr", {}, 1});
     const std::string text = settings_json(state());
     apply_settings_json(state(), text, "settings.json");
-    EXPECT_EQ(state().wishes.open_reference, ""); // it is that one
+    EXPECT_EQ(state().wishes.open_reference, ""); // it is loaded already
     state().companions.reference.reset();
     apply_settings_json(state(), text, "settings.json");
     EXPECT_EQ(state().wishes.open_reference, "room.exr");
 }
 
-TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
+TEST_F(SettingsFile, ErrorsAreReportedAndChangeNothing) {
     const std::string before = settings_json(state());
     for (const char* text : {"",
                              "{",
@@ -132,7 +132,7 @@ TEST_F(SettingsFile, WhatIsBrokenChangesNothingAndIsNamed) {
     }
 }
 
-TEST_F(SettingsFile, BuffersMayHaveTheirFormerNames) {
+TEST_F(SettingsFile, OldNamesOfBuffersAreRead) {
     apply_settings_json(state(),
                         "{\"panes\": [{\"buffer\": \"failed\"}],"
                         " \"ranges\": {\"failed\": {\"low\": 0, \"high\": 2}}}",
@@ -143,21 +143,21 @@ TEST_F(SettingsFile, BuffersMayHaveTheirFormerNames) {
     EXPECT_TRUE(state().messages.empty());
 }
 
-TEST_F(SettingsFile, FieldsThatNobodyKnowsAreTold) {
+TEST_F(SettingsFile, UnknownFieldsAreReported) {
     apply_settings_json(
         state(), "{\"panes\": [{},\n {\"tile\": 8, \"settings\": {\"tile\": \"4\"}}],\n \"tome\": {\"x\": 1}}",
         "odd.json");
     EXPECT_EQ(state().panes[1].settings.render.tile, 4);
     ASSERT_EQ(state().messages.size(), 2u);
-    EXPECT_EQ(state().messages[0].text, "odd.json:3:10: there is no \"tome\": it is ignored");
-    EXPECT_EQ(state().messages[1].text, "odd.json:2:11: there is no \"tile\": it is ignored");
+    EXPECT_EQ(state().messages[0].text, "odd.json:3:10: the unknown field \"tome\" is ignored");
+    EXPECT_EQ(state().messages[1].text, "odd.json:2:11: the unknown field \"tile\" is ignored");
     EXPECT_EQ(state().messages[0].kind, Message::Kind::note);
 }
 
 TEST_F(SettingsFile, MessagesHaveLineAndColumn) {
     const std::pair<const char*, const char*> cases[] = {
         {"{\"panes\": [{}],\n \"tone\": {\n  \"exposure\": 99}}", "bad.json:3:15: exposure is out of range"},
-        {"{\"panes\": [{}, {\n\"settings\": {\"tile\": 4}}]}", "bad.json:2:22: tile is of the wrong kind: number"},
+        {"{\"panes\": [{}, {\n\"settings\": {\"tile\": 4}}]}", "bad.json:2:22: tile has the wrong type: number"},
         {"{\"panes\": [{}, {\n\"settings\": {\"tile\": \"99\"}}]}", "bad.json:2:22: "},
         {"{\"panes\": [{\n \"alpha\": 0}]}", "bad.json:2:11: alpha is out of range"},
         {"{\"panes\": [{\n \"norm\": \"l3\"}]}", "bad.json:2:10: norm is \"l3\": must be one of none, l2, l1, "
@@ -177,7 +177,7 @@ TEST_F(SettingsFile, MessagesHaveLineAndColumn) {
     }
 }
 
-TEST_F(SettingsFile, IsSavedByItsActionAndTakenByDropping) {
+TEST_F(SettingsFile, IsSavedByItsActionAndLoadedByDropping) {
     load_scene();
     state().panes[0].settings.render.tile = 3;
     type(Key::p, true);
@@ -195,7 +195,7 @@ TEST_F(SettingsFile, IsSavedByItsActionAndTakenByDropping) {
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
 }
 
-TEST(DroppedTogether, TheSettingsCountAfterTheScene) {
+TEST(DroppedTogether, SettingsApplyAfterTheScene) {
     CurrentFolder folder;
     ViewerOptions options = ViewerHarness::two_panes();
     options.open = scene_in;

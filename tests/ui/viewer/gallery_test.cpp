@@ -1,4 +1,4 @@
-// The gallery of scenes: pictures to be clicked, made in the background.
+// The gallery of scenes, whose pictures are loaded in the background.
 #include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
 #include "ui/settings/preferences.h"
@@ -38,11 +38,11 @@ ViewerOptions with_gallery(std::atomic<bool>& may_end, std::filesystem::path& op
     return options;
 }
 
-TEST(Gallery, OpensWhatIsClicked) {
+TEST(Gallery, OpensTheClickedScene) {
     std::atomic<bool> may_end = false;
     std::filesystem::path opened;
     ViewerHarness h({1280, 720}, 1, with_gallery(may_end, opened));
-    h.frames(3); // which do not wait for it
+    h.frames(3); // frames do not wait for the gallery
     EXPECT_TRUE(h.has("gallery.close"));
     EXPECT_FALSE(h.has("gallery/glossy"));
     may_end = true;
@@ -62,7 +62,7 @@ TEST(Gallery, OpensWhatIsClicked) {
     EXPECT_FALSE(h.state().layout.show_gallery);
 }
 
-TEST(Gallery, RecentScenesHavePicturesOnceTheyWereRendered) {
+TEST(Gallery, RecentScenesHaveThumbnailsAfterARender) {
     const CurrentFolder folder;
     std::atomic<bool> may_end = true;
     std::filesystem::path opened;
@@ -86,13 +86,13 @@ TEST(Gallery, RecentScenesHavePicturesOnceTheyWereRendered) {
     h.frames(3);
     h.save("gallery-recent.png");
     EXPECT_TRUE(h.has("gallery.drop"));
-    EXPECT_GT(h.brightness("gallery.recent0"), 40) << "it is black without a picture";
+    EXPECT_GT(h.brightness("gallery.recent0"), 40) << "without a thumbnail it is black";
     h.click("gallery.recent0");
     ASSERT_TRUE(h.wait_until([&] { return !h.state().layout.show_gallery; }));
     EXPECT_EQ(opened, std::filesystem::absolute("rooms/room.xml"));
 }
 
-TEST(Gallery, NoMorePicturesAreKeptThanThereAreRecentScenes) {
+TEST(Gallery, ThumbnailsOfOtherScenesAreRemoved) {
     const CurrentFolder folder;
     const std::filesystem::path preferences = std::filesystem::absolute("viewer.json");
     const RgbImage picture = thumbnail_of(RgbImage(300, 100, Rgb(0.5f)), 0);
@@ -104,7 +104,7 @@ TEST(Gallery, NoMorePicturesAreKeptThanThereAreRecentScenes) {
         write_preferences(preferences, p);
         store_thumbnail(preferences, scene, picture);
     }
-    EXPECT_TRUE(read_thumbnail(preferences, "/scenes/3/scene.xml").empty()) << "it is no recent one any more";
+    EXPECT_TRUE(read_thumbnail(preferences, "/scenes/3/scene.xml").empty()) << "the scene is not recent";
     const RgbImage kept = read_thumbnail(preferences, "/scenes/11/scene.xml");
     ASSERT_EQ(kept.width(), picture.width());
     EXPECT_NEAR(kept(80, 60).r, picture(80, 60).r, 1.0f / 255);

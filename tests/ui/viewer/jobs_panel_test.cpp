@@ -1,4 +1,4 @@
-// The folder of jobs that is followed: what the panel shows of it, and that the window never waits for it.
+// The panel of a followed folder of jobs. The window never waits for the folder.
 #include "tests/ui/viewer_harness.h"
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace {
 
 using State = FollowedJob::State;
 
-/// A folder of 100000 jobs, of which so many are done.
+/// Returns a folder of 100000 jobs, of which `done` are done.
 std::shared_ptr<const FollowedFolder> folder_with(std::size_t done) {
     FollowedFolder folder{"sweep", {}, {}, {}};
     for (std::size_t i = 0; i < 100000; ++i)
@@ -56,7 +56,7 @@ ViewerOptions following(Reader& reader) {
     return options;
 }
 
-TEST(JobsPanel, ShowsWhatComes) {
+TEST(JobsPanel, ShowsNewResults) {
     Reader reader;
     ViewerHarness h({1280, 720}, 1, following(reader));
     ASSERT_TRUE(h.wait_until([&] { return h.has("jobs.plots"); }));
@@ -67,15 +67,15 @@ TEST(JobsPanel, ShowsWhatComes) {
     const int looks = reader.looks;
     ASSERT_TRUE(h.wait_until([&] { return reader.looks > looks + 1; }));
     h.frames(2);
-    EXPECT_GT(h.brightness("jobs.bar"), before + 10) << "half of it is done";
+    EXPECT_GT(h.brightness("jobs.bar"), before + 10) << "half of the bar is filled";
     h.type(Key::escape);
     h.frames(2);
     EXPECT_FALSE(h.state().layout.show_jobs);
     h.type(Key::f, true, true);
-    EXPECT_TRUE(h.state().layout.show_jobs) << "and comes back as it was";
+    EXPECT_TRUE(h.state().layout.show_jobs) << "the panel is restored";
 }
 
-TEST(JobsPanel, SaysWhatIsWrongAndGoesOnLooking) {
+TEST(JobsPanel, ReportsErrorsAndContinuesToRead) {
     Reader reader;
     reader.fails = true;
     ViewerHarness h({1280, 720}, 1, following(reader));
@@ -92,14 +92,14 @@ TEST(JobsPanel, TheWindowNeverWaitsForTheFolder) {
     reader.hangs = true;
     ViewerHarness h({1280, 720}, 1, following(reader));
     ASSERT_TRUE(h.wait_until([&] { return reader.looks > 0; }));
-    h.load_scene(); // frames come, and pictures
+    h.load_scene(); // frames and renders continue
     EXPECT_TRUE(h.has("jobs.close"));
     EXPECT_EQ(reader.looks, 1);
     reader.hangs = false;
     ASSERT_TRUE(h.wait_until([&] { return h.has("jobs.bar"); }));
 }
 
-TEST(JobsPanel, ItsFolderIsChosenInTheDialog) {
+TEST(JobsPanel, TheDialogChoosesTheFolder) {
     Reader reader;
     ViewerOptions options = following(reader);
     options.jobs.clear();
@@ -109,7 +109,7 @@ TEST(JobsPanel, ItsFolderIsChosenInTheDialog) {
     h.type(Key::o, true, true);
     ASSERT_EQ(h.state().layout.choosing, FilePurpose::jobs);
     h.frames(2);
-    h.click("file.open"); // the current folder, which the dialog begins with
+    h.click("file.open"); // opens the current folder, where the dialog begins
     ASSERT_TRUE(h.wait_until([&] { return h.has("jobs.bar"); }));
     EXPECT_FALSE(h.state().layout.choosing);
 }

@@ -1,4 +1,4 @@
-// A viewer without a scene, and scenes without light, say so where their picture would be.
+// Panes show the reason for a missing or black picture.
 
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
@@ -17,7 +17,7 @@
 namespace tessera::test {
 namespace {
 
-TEST(NoScene, ABrokenOneIsToldInThePanesWithAWayOn) {
+TEST(NoScene, PanesReportABrokenSceneWithButtons) {
     ViewerHarness h;
     bool is_broken = true;
     h.viewer.load("room.xml", [&](SceneNotes&, LoadProgress&) -> std::shared_ptr<const Scene> {
@@ -42,7 +42,7 @@ TEST(NoScene, ABrokenOneIsToldInThePanesWithAWayOn) {
     EXPECT_EQ(h.state().scene_info.problem.text, "");
 }
 
-TEST(NoScene, OneThatWasGivenUpIsToldToo) {
+TEST(NoScene, PanesReportACancelledLoad) {
     ViewerHarness h;
     std::atomic<bool> goes_on = false;
     h.viewer.load("room.xml", [&](SceneNotes&, LoadProgress&) {
@@ -51,15 +51,15 @@ TEST(NoScene, OneThatWasGivenUpIsToldToo) {
         return viewer_scene();
     });
     h.frames(3);
-    EXPECT_FALSE(h.has("no_scene.why")) << "it is on its way";
+    EXPECT_FALSE(h.has("no_scene.why")) << "the scene is loading";
     h.click("cancel_load");
     goes_on = true;
     h.frames(3);
     EXPECT_TRUE(h.has("no_scene.why"));
-    EXPECT_NE(h.state().scene_info.problem.text.find("given up"), std::string::npos);
+    EXPECT_NE(h.state().scene_info.problem.text.find("was cancelled"), std::string::npos);
 }
 
-/// How many pixels in the middle of a pane's place are not black.
+/// Counts the pixels in the middle of a pane that are not black.
 int lit_pixels(const ViewerHarness& h) {
     const ControlRect rect = h.place("pane0.picture");
     const ScreenPixels screen = h.screen();
@@ -70,7 +70,7 @@ int lit_pixels(const ViewerHarness& h) {
     return count;
 }
 
-TEST(NoScene, ABlackPictureHasWords) {
+TEST(NoScene, ABlackPictureShowsText) {
     ViewerHarness h;
     h.state().rendering.pace.spp_limit = 1;
     h.viewer.load("dark", [](SceneNotes&, LoadProgress&) {
@@ -91,17 +91,17 @@ TEST(NoScene, ABlackPictureHasWords) {
     EXPECT_FALSE(h.viewer.pictures().image(0).is_black());
 }
 
-TEST(NoScene, ARenderThatFailsSaysWhyInItsPane) {
+TEST(NoScene, APaneReportsWhyItsRenderFailed) {
     ViewerHarness h;
     h.load_scene();
-    h.state().panes[1].settings.render.tile = 99; // beyond every limit
+    h.state().panes[1].settings.render.tile = 99; // beyond all limits
     h.wait_until([&] { return h.pane(1).failed; });
     h.frames(2);
     h.save("failed.png");
     EXPECT_NE(h.pane(1).failure.find("tile"), std::string::npos) << h.pane(1).failure;
 }
 
-TEST(Modes, AreToldInThePanesAndLeaveTheMessagesTheirPlace) {
+TEST(Modes, AreShownInPanesAndLeaveSpaceForMessages) {
     ViewerHarness h;
     h.rest(2);
     EXPECT_FALSE(h.has("pane0.mode"));
@@ -110,7 +110,8 @@ TEST(Modes, AreToldInThePanesAndLeaveTheMessagesTheirPlace) {
     EXPECT_TRUE(h.has("pane0.mode"));
     EXPECT_TRUE(h.has("pane1.mode"));
     h.move_to(h.place("pane0.picture").center());
-    EXPECT_EQ(ImGui::GetMouseCursor(), ImGuiMouseCursor_Hand); // a click chooses, and moves no camera
+    EXPECT_EQ(ImGui::GetMouseCursor(),
+              ImGuiMouseCursor_Hand); // a click chooses a pixel, and does not move the camera
     h.state().add_message(Message::Kind::error, "something went wrong");
     h.frames(3);
     h.save("mode-and-messages.png");

@@ -1,4 +1,4 @@
-// Keys while a list or a menu is open, and values that are typed into sliders.
+// Keys while a list or a menu is open, and values typed into sliders.
 
 #include "tests/ui/viewer_harness.h"
 
@@ -28,7 +28,7 @@ struct OpenList : testing::Test, ViewerHarness {
     Camera camera;
 };
 
-TEST_F(OpenList, EscapeClosesItAndNothingElse) {
+TEST_F(OpenList, EscapeClosesOnlyTheList) {
     open();
     state().layout.show_help = false;
     key(Key::escape);
@@ -37,21 +37,21 @@ TEST_F(OpenList, EscapeClosesItAndNothingElse) {
     EXPECT_FALSE(state().wishes.cancel_scene);
 }
 
-TEST_F(OpenList, ArrowsChooseAndReturnTakes) {
+TEST_F(OpenList, ArrowsSelectAndReturnAccepts) {
     const std::uint64_t generation = pane(1).generation;
     open();
     key(Key::down);
     key(Key::down);
     EXPECT_TRUE(is_open());
-    EXPECT_TRUE(state().camera.camera() == camera) << "arrows turn the camera only where nothing is open";
+    EXPECT_TRUE(state().camera.camera() == camera) << "arrows move the camera only if no list is open";
     key(Key::enter);
     EXPECT_FALSE(is_open());
     EXPECT_NE(pane(0).settings.render.method, Method::pt);
-    EXPECT_EQ(pane(1).generation, generation) << "the other pane's render is thrown away";
+    EXPECT_EQ(pane(1).generation, generation) << "the other pane's render restarts";
     EXPECT_TRUE(state().camera.camera() == camera);
 }
 
-TEST_F(OpenList, ArrowsBeginAtWhatIsChosen) {
+TEST_F(OpenList, ArrowsBeginAtTheChosenItem) {
     click_at("pane1.method", 0.3f);
     ASSERT_TRUE(has("pane1.method/gpr"));
     frames(3);
@@ -60,7 +60,7 @@ TEST_F(OpenList, ArrowsBeginAtWhatIsChosen) {
     EXPECT_EQ(pane(1).settings.render.method, Method::gpt);
 }
 
-TEST_F(OpenList, HeldArrowsDoNotTurnTheCamera) {
+TEST_F(OpenList, HeldArrowsDoNotMoveTheCamera) {
     open();
     viewer.keyboard().press(Key::down, Key::down, false, false);
     frames(10);
@@ -68,7 +68,7 @@ TEST_F(OpenList, HeldArrowsDoNotTurnTheCamera) {
     EXPECT_TRUE(state().camera.camera() == camera);
 }
 
-TEST_F(OpenList, NoKeyOfTheSceneWorks) {
+TEST_F(OpenList, BlocksShortcuts) {
     open();
     const std::uint64_t generation = pane(0).generation;
     for (Key scene_key : {Key::r, Key::m, Key::p, Key::space, Key::k, Key::j})
@@ -80,7 +80,7 @@ TEST_F(OpenList, NoKeyOfTheSceneWorks) {
     EXPECT_TRUE(state().messages.empty());
 }
 
-TEST_F(OpenList, MenusHaveTheKeysToo) {
+TEST_F(OpenList, MenusHandleTheKeysToo) {
     click("menu View");
     ASSERT_TRUE(has("menu View/Brighter"));
     const float exposure = state().display.tone.exposure;
@@ -93,7 +93,7 @@ TEST_F(OpenList, MenusHaveTheKeysToo) {
     EXPECT_FALSE(has("menu View/Brighter"));
 }
 
-TEST_F(OpenList, WhatIsTypedIntoASliderCountsWhenItIsLeft) {
+TEST_F(OpenList, ATypedSliderValueIsSetWhenItLosesFocus) {
     const std::uint64_t generation = pane(1).generation;
     const int before = pane(1).settings.render.tile;
     reveal("tile");
@@ -104,12 +104,12 @@ TEST_F(OpenList, WhatIsTypedIntoASliderCountsWhenItIsLeft) {
     for (char digit : {'9', '9'}) {
         ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(digit));
         frames(3);
-        EXPECT_EQ(pane(1).settings.render.tile, before) << "a digit is no value yet";
+        EXPECT_EQ(pane(1).settings.render.tile, before) << "a digit does not set the value";
         EXPECT_EQ(pane(1).generation, generation);
     }
-    click(place("pane0.status").center()); // away from it
+    click(place("pane0.status").center()); // leaves the slider
     frames(3);
-    EXPECT_EQ(pane(1).settings.render.tile, 16) << "the most that there is";
+    EXPECT_EQ(pane(1).settings.render.tile, 16) << "the maximum";
     EXPECT_NE(pane(1).generation, generation);
 }
 

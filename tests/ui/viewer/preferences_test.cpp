@@ -1,4 +1,4 @@
-// What the viewer remembers.
+// Preferences: the layout and the recent scenes that the viewer stores.
 
 #include "tests/ui/viewer/current_folder.h"
 #include "tests/ui/viewer_harness.h"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Preferences, AreReadAsTheyWereWritten) {
+TEST(Preferences, AreReadAsWritten) {
     CurrentFolder folder;
     const fs::path file = folder.path / "deep" / "viewer.json";
     std::string note;
@@ -52,9 +52,8 @@ TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
         EXPECT_TRUE(read_preferences("viewer.json", note) == Preferences{}) << text;
         EXPECT_NE(note.find("viewer.json"), std::string::npos) << text;
     }
-    std::ofstream("viewer.json")
-        << "{\"window\": [0, -5], \"text_factor\": 99, \"panes\": 9, \"panel_width\": 0}"; // odd numbers do no
-                                                                                           // harm
+    // Values out of range are harmless.
+    std::ofstream("viewer.json") << "{\"window\": [0, -5], \"text_factor\": 99, \"panes\": 9, \"panel_width\": 0}";
     std::string note;
     EXPECT_EQ(read_preferences("viewer.json", note).window.size, glm::ivec2(0));
     EXPECT_EQ(read_preferences("viewer.json", note).text_factor, 3.0f);
@@ -62,7 +61,7 @@ TEST(Preferences, ABrokenFileIsIgnoredWithANote) {
     EXPECT_EQ(read_preferences("viewer.json", note).panel_width, Layout::least_panel_width);
 }
 
-TEST(Preferences, WhatCannotBeReadIsIgnoredWithANote) {
+TEST(Preferences, AnUnreadableFileIsIgnoredWithANote) {
     CurrentFolder folder;
     fs::create_directory("folder");
     fs::create_symlink("nowhere", "link");
@@ -73,7 +72,7 @@ TEST(Preferences, WhatCannotBeReadIsIgnoredWithANote) {
     }
 }
 
-TEST(Preferences, AreWrittenToWhereALinkLeads) {
+TEST(Preferences, AreWrittenToALinksTarget) {
     CurrentFolder folder;
     const fs::path file = folder.path / "viewer.json";
     Preferences p;
@@ -142,7 +141,7 @@ TEST(Remembered, LayoutAndRecentScenes) {
     EXPECT_EQ(opened, 2);
 }
 
-TEST(Remembered, TheScenesOfTwoViewersAtATime) {
+TEST(Remembered, ScenesOfTwoConcurrentViewersAreKept) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
     ViewerHarness h({900, 600}, 1, options);
@@ -159,7 +158,7 @@ TEST(Remembered, TheScenesOfTwoViewersAtATime) {
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, both);
 }
 
-TEST(Remembered, NoFrameWaitsForTheDisk) {
+TEST(Remembered, FramesDoNotWaitForTheDisk) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
     ViewerHarness h({900, 600}, 1, options);
@@ -172,12 +171,12 @@ TEST(Remembered, NoFrameWaitsForTheDisk) {
     of_another.add_recent("/scenes/theirs.xml");
     write_preferences(options.preferences, of_another);
     std::vector<std::string> scenes{"/scenes/room.xml"};
-    h.viewer.drop({scenes.front()}); // is to be remembered
+    h.viewer.drop({scenes.front()}); // its preferences are stored
     h.wait_until([&] { return h.state().scene_info.shown == 1; });
     h.frames(3);
     std::string note;
     EXPECT_TRUE(read_preferences(options.preferences, note) ==
-                of_another);                    // not written, and yet there are frames
+                of_another);                        // not written, although frames continue
     EXPECT_EQ(h.state().scene_info.recent, scenes); // nor read
     disk.set_value();
     h.finish_saving();
@@ -186,8 +185,8 @@ TEST(Remembered, NoFrameWaitsForTheDisk) {
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes, scenes);
 }
 
-/// How many messages have these words.
-long told(ViewerHarness& h, const std::string& words) {
+/// Counts the messages that contain the text.
+long count_messages(ViewerHarness& h, const std::string& words) {
     const auto& messages = h.state().messages;
     return std::count_if(messages.begin(), messages.end(),
                          [&](const Message& m) { return m.text.find(words) != std::string::npos; });
@@ -199,7 +198,7 @@ std::string first_line(const fs::path& file) {
     return line;
 }
 
-TEST(Remembered, EveryBrokenFileIsKeptAside) {
+TEST(Remembered, EachBrokenFileIsRenamed) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
     const std::vector<std::pair<std::string, std::string>> broken{
@@ -208,7 +207,7 @@ TEST(Remembered, EveryBrokenFileIsKeptAside) {
         std::ofstream(options.preferences) << text;
         ViewerHarness h({900, 600}, 1, options);
         h.load_scene();
-        EXPECT_EQ(told(h, "it is now " + options.preferences.string() + ending), 1)
+        EXPECT_EQ(count_messages(h, "it is renamed to " + options.preferences.string() + ending), 1)
             << h.state().messages.front().text;
     }
     for (const auto& [text, ending] : broken)
@@ -218,7 +217,7 @@ TEST(Remembered, EveryBrokenFileIsKeptAside) {
     EXPECT_EQ(note, "");
 }
 
-TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
+TEST(Remembered, AFileBrokenDuringTheRunIsRenamed) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
     std::ofstream(options.preferences) << R"({"recent_scenes": ["/a.xml"]})";
@@ -227,15 +226,15 @@ TEST(Remembered, AFileThatIsBrokenMeanwhileIsKeptAsideToo) {
     h.viewer.drop({"/scenes/room.xml"});
     h.wait_until([&] { return h.state().scene_info.shown == 1; });
     h.finish_saving();
-    EXPECT_EQ(told(h, "it is now "), 1);
+    EXPECT_EQ(count_messages(h, "it is renamed to "), 1);
     EXPECT_EQ(first_line(options.preferences.string() + ".broken"), "[1]");
     std::string note;
     EXPECT_EQ(read_preferences(options.preferences, note).recent_scenes.size(), 2u);
 }
 
-/// Something that cannot be read is in the preferences' place: it is told once, and nothing comes beside it but
-/// the gallery's pictures, should a scene have been rendered for long enough.
-void expect_nothing_remembered(const CurrentFolder& folder) {
+/// Expects one message about an unreadable path in place of the preferences file, and no other file except
+/// thumbnails, if a scene has rendered for long enough.
+void expect_nothing_stored(const CurrentFolder& folder) {
     {
         ViewerHarness h({900, 600}, 1, remembering_in(folder));
         for (int n = 1; n <= 2; ++n) {
@@ -243,7 +242,7 @@ void expect_nothing_remembered(const CurrentFolder& folder) {
             h.wait_until([&] { return h.state().scene_info.shown == n; });
             h.finish_saving();
         }
-        EXPECT_EQ(told(h, "cannot be read"), 1);
+        EXPECT_EQ(count_messages(h, "cannot be read"), 1);
         EXPECT_EQ(h.state().scene_info.recent, std::vector<std::string>{"/scenes/room.xml"});
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.path))
@@ -251,21 +250,21 @@ void expect_nothing_remembered(const CurrentFolder& folder) {
             << entry.path();
 }
 
-TEST(Remembered, AFolderInTheFilesPlaceStays) {
+TEST(Remembered, AFolderInPlaceOfTheFileStays) {
     CurrentFolder folder;
     fs::create_directory("viewer.json");
-    expect_nothing_remembered(folder);
+    expect_nothing_stored(folder);
     EXPECT_TRUE(fs::is_directory("viewer.json"));
 }
 
-TEST(Remembered, ALinkToNowhereStays) {
+TEST(Remembered, ADanglingLinkStays) {
     CurrentFolder folder;
     fs::create_symlink("nowhere", "viewer.json");
-    expect_nothing_remembered(folder);
+    expect_nothing_stored(folder);
     EXPECT_TRUE(fs::is_symlink("viewer.json"));
 }
 
-TEST(Remembered, WithoutACurrentFolderNothingEnds) {
+TEST(Remembered, TheViewerRunsWithoutACurrentFolder) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
     fs::create_directory("gone");
@@ -275,7 +274,7 @@ TEST(Remembered, WithoutACurrentFolderNothingEnds) {
         ViewerHarness h({900, 600}, 1, options);
         h.viewer.drop({"room.xml"});
         h.wait_until([&] { return h.state().scene_info.shown == 1; });
-        h.type(Key::p, true); // settings
+        h.type(Key::p, true); // saves settings
         h.finish_saving();
         EXPECT_EQ(h.state().messages.back().kind, Message::Kind::error);
         h.type(Key::o, true);
@@ -286,11 +285,13 @@ TEST(Remembered, WithoutACurrentFolderNothingEnds) {
     EXPECT_TRUE(read_preferences(options.preferences, note).recent_scenes.empty());
 }
 
-TEST(Remembered, PanesThatWereAskedForOnceAreNotTheNextLayout) {
+TEST(Remembered, PanesOfTheCommandLineAreNotStored) {
     CurrentFolder folder;
     ViewerOptions options = remembering_in(folder);
     std::string note;
-    { ViewerHarness h({900, 600}, 1, options); }
+    {
+        ViewerHarness h({900, 600}, 1, options);
+    }
     EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
     options.panes.resize(1); // -m gpr
     options.panes_as_remembered = false;
@@ -301,13 +302,13 @@ TEST(Remembered, PanesThatWereAskedForOnceAreNotTheNextLayout) {
     EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
     {
         ViewerHarness h({900, 600}, 1, options);
-        h.state().set_pane_count(4); // by hand
+        h.state().set_pane_count(4); // as if the user had done so
         h.frames(2);
     }
     EXPECT_EQ(read_preferences(options.preferences, note).panes, 4);
 }
 
-TEST(Remembered, AMaximisedWindowKeepsTheSizeItComesBackTo) {
+TEST(Remembered, AMaximisedWindowKeepsItsNormalSize) {
     CurrentFolder folder;
     const ViewerOptions options = remembering_in(folder);
     {

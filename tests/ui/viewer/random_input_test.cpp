@@ -1,5 +1,5 @@
-// The viewer under random input, for TESSERA_RANDOM_SECONDS (5): nothing may break, and afterwards all works as
-// before. TESSERA_RANDOM_SEED repeats a run, as far as threads let it. For the sanitizers: random_run.sh.
+// Drives the viewer with random input for TESSERA_RANDOM_SECONDS (5). It must survive and work afterwards.
+// TESSERA_RANDOM_SEED repeats a run, apart from the timing of threads. random_run.sh runs it with sanitizers.
 
 #include "render/io/exr.h"
 #include "tests/ui/viewer_harness.h"
@@ -34,7 +34,7 @@ double number_from(const char* variable, double otherwise) {
     return text ? std::atof(text) : otherwise;
 }
 
-/// Files to be dropped on the window, some of them broken, in a folder of their own that is the current one.
+/// Files to drop on the window, some of them broken, in a temporary current folder.
 class Files {
 public:
     Files() {
@@ -57,7 +57,7 @@ public:
         const char* names[] = {"scene.xml",   "broken.xml", "settings.json", "broken.json",
                                "picture.exr", "broken.exr", "empty",         "not there.xml"};
         std::vector<fs::path> all(std::begin(names), std::end(names));
-        for (const auto& entry : fs::directory_iterator(folder_)) // what the viewer has saved itself
+        for (const auto& entry : fs::directory_iterator(folder_)) // files that the viewer has saved
             all.push_back(entry.path().filename());
         return folder_ / all[random() % all.size()];
     }
@@ -96,7 +96,7 @@ protected:
     int integer(int least, int most) { return std::uniform_int_distribution(least, most)(random_); }
     bool one_in(int n) { return integer(1, n) == 1; }
 
-    /// On a control more often than not.
+    /// Returns a random position, mostly on a control.
     glm::vec2 anywhere() {
         const auto& controls = viewer().controls().rects();
         if (controls.empty() || one_in(3))
@@ -142,7 +142,7 @@ protected:
         const bool ctrl = one_in(5), shift = one_in(4);
         note(fmt::format("key {}", to_string(Shortcut{key, ctrl, shift})));
         viewer().keyboard().press(key, key, ctrl, shift);
-        if (!one_in(4)) // held otherwise
+        if (!one_in(4)) // otherwise the key stays down
             viewer().keyboard().release(key);
     }
 
@@ -180,7 +180,7 @@ protected:
         }
     }
 
-    /// With threads beside each other in a pass, for the sanitizer that watches them.
+    /// Uses several threads per pass, for the thread sanitizer.
     std::unique_ptr<ViewerHarness> new_viewer() const {
         return std::make_unique<ViewerHarness>(glm::ivec2(900, 600), 1.0f, options_for(files_), 3);
     }
@@ -197,7 +197,7 @@ protected:
         ASSERT_TRUE(std::isfinite(state.display.tone.exposure));
     }
 
-    /// Keeps a few of the last lines, to be told when something breaks.
+    /// Keeps the last lines, which are printed after a failure.
     void note(std::string what) {
         last_.push_back(std::move(what));
         if (last_.size() > 40)
@@ -212,7 +212,7 @@ protected:
     std::unique_ptr<ViewerHarness> harness_;
 };
 
-/// Resident memory, MiB.
+/// Returns the resident memory, MiB.
 double resident() {
     long pages = 0, resident = 0;
     std::ifstream("/proc/self/statm") >> pages >> resident;
@@ -249,13 +249,13 @@ TEST_F(RandomInput, BreaksNothing) {
         for (const std::string& line : last_)
             fmt::print("  {}\n", line);
 
-    // Whatever is open, has the focus or is on its way: Ctrl+Q ends the program.
+    // Ctrl+Q quits in any state.
     harness_->state().wishes.quit = false;
     viewer().keyboard().press(Key::q, Key::q, true, false);
     harness_->frame(0.02f);
     EXPECT_TRUE(harness_->state().wishes.quit);
 
-    // What comes after it is a viewer as any other.
+    // A new viewer works as usual.
     harness_.reset();
     harness_ = std::make_unique<ViewerHarness>();
     harness_->rest(4);

@@ -1,4 +1,4 @@
-// "Make reference": in the background, to the bits of `tessera reference`, and resumed.
+// "Make reference": renders in the background, bit-identical to `tessera reference`, and can be resumed.
 
 #include "render/run/reference_render.h"
 #include "tests/ui/viewer/current_folder.h"
@@ -22,7 +22,7 @@ struct MakeReference : testing::Test {
 
     MakeReference() { h.rest(2); }
 
-    /// Opens the dialog, asks for so many samples, and begins.
+    /// Opens the dialog, sets the number of samples, and starts the render.
     static void begin(ViewerHarness& viewer, int spp) {
         viewer.type(Key::m, true);
         EXPECT_TRUE(viewer.state().reference_making.show);
@@ -40,7 +40,7 @@ struct MakeReference : testing::Test {
         viewer.wait_until([&] { return !viewer.state().reference_making.is_making(); });
     }
 
-    /// What the command makes of the same.
+    /// Returns the checksum of the reference that the command renders with these settings.
     static std::uint32_t expected(ViewerHarness& viewer, int spp) {
         ReferenceRecipe recipe;
         recipe.size = viewer.state().request_size();
@@ -54,7 +54,7 @@ struct MakeReference : testing::Test {
     }
 };
 
-TEST_F(MakeReference, IsNamedByTheScenesVariablesAndKnowsThem) {
+TEST_F(MakeReference, NameAndSourceContainTheScenesVariables) {
     h.viewer.load("room.xml", scene_in("room.xml").loader, {"room.xml", {{"unit", "100000"}}, {}});
     h.wait_until([&] { return h.state().scene_info.shown == 2; });
     h.frames(2);
@@ -66,7 +66,7 @@ TEST_F(MakeReference, IsNamedByTheScenesVariablesAndKnowsThem) {
     EXPECT_EQ(settings.at("variables").at("unit"), "100000");
 }
 
-TEST_F(MakeReference, BecomesTheReferenceAndHasTheBitsOfTheCommand) {
+TEST_F(MakeReference, IsOpenedAndEqualsThatOfTheCommand) {
     begin(h, 16);
     wait_for_end(h);
     h.wait_until([&] { return h.state().companions.reference != nullptr; });
@@ -79,7 +79,7 @@ TEST_F(MakeReference, BecomesTheReferenceAndHasTheBitsOfTheCommand) {
         << h.state().messages.front().text;
 }
 
-TEST_F(MakeReference, IsCancelledAndGoesOn) {
+TEST_F(MakeReference, ContinuesAfterACancellation) {
     begin(h, 1 << 20);
     wait_for_samples(h, 4);
     h.wait_until([&] { return h.state().reference_making.progress->error.has_value(); });
@@ -106,7 +106,7 @@ TEST_F(MakeReference, IsCancelledAndGoesOn) {
     EXPECT_EQ(checksum_of(read_reference(file(h))), expected(h, spp + 6));
 }
 
-TEST_F(MakeReference, AnewForgetsTheCheckpoint) {
+TEST_F(MakeReference, AnewDropsTheCheckpoint) {
     begin(h, 1 << 20);
     wait_for_samples(h, 4);
     h.click("reference.cancel");
@@ -116,7 +116,7 @@ TEST_F(MakeReference, AnewForgetsTheCheckpoint) {
     EXPECT_TRUE(h.state().reference_making.anew);
     h.state().reference_making.spp = 2;
     h.click("reference.make");
-    EXPECT_FALSE(h.state().reference_making.anew); // this once
+    EXPECT_FALSE(h.state().reference_making.anew); // once only
     wait_for_end(h);
     EXPECT_EQ(checksum_of(read_reference(file(h))), expected(h, 2));
 }
@@ -134,7 +134,7 @@ TEST_F(MakeReference, OfAnotherCameraHasAnotherName) {
     EXPECT_EQ(file(h), before);
 }
 
-TEST_F(MakeReference, OfAViewThatIsGoneIsNotTaken) {
+TEST_F(MakeReference, OfAnOlderViewIsNotOpened) {
     begin(h, 32);
     ASSERT_TRUE(h.state().reference_making.is_making());
     const fs::path made = file(h);
@@ -148,7 +148,7 @@ TEST_F(MakeReference, OfAViewThatIsGoneIsNotTaken) {
     EXPECT_NE(h.state().messages.back().text.find("not opened"), std::string::npos);
 }
 
-TEST_F(MakeReference, WhatCannotBeWrittenIsAMessage) {
+TEST_F(MakeReference, AnUnwritableFileGivesAMessage) {
     h.type(Key::m, true);
     std::strcpy(h.state().reference_making.file.data(), "/nowhere/reference.exr");
     h.click("reference.make");
@@ -157,7 +157,7 @@ TEST_F(MakeReference, WhatCannotBeWrittenIsAMessage) {
     EXPECT_NE(h.state().messages.back().text.find("/nowhere/reference.exr"), std::string::npos);
 }
 
-TEST_F(MakeReference, TheDialogSaysHowLong) {
+TEST_F(MakeReference, TheDialogEstimatesTheTime) {
     ASSERT_TRUE(estimated_seconds(h.state()).has_value());
     const double seconds = *estimated_seconds(h.state());
     h.state().reference_making.spp *= 2;
@@ -195,7 +195,7 @@ TEST(MakeReferenceTwice, ClosingTheViewerKeepsTheCheckpoint) {
     EXPECT_GT(h.state().reference_making.progress->spp_resumed, 0);
 }
 
-/// A viewer that is closed is not to live on, hidden, for the rest of a pass.
+/// A closed viewer must not run on, hidden, until the end of a pass.
 TEST(MakeReferenceTwice, ClosingTheViewerEndsThePassUnderWay) {
     const CurrentFolder folder;
     ReferenceRecipe recipe;
@@ -215,7 +215,7 @@ TEST(MakeReferenceTwice, ClosingTheViewerEndsThePassUnderWay) {
         subject = {h.state().scene_info.source, h.state().scene, h.state().camera.camera()};
         MakeReference::begin(h, 1 << 20);
         made = MakeReference::file(h);
-        MakeReference::wait_for_samples(h, 1); // the next pass begins
+        MakeReference::wait_for_samples(h, 1); // the next pass starts
         spp = h.state().reference_making.progress->spp;
     }
     ASSERT_TRUE(fs::exists(reference_checkpoint(made)));

@@ -1,4 +1,4 @@
-// Pictures that the viewer saves: of a pane as EXR and PNG.
+// Saving of pictures as EXR and PNG.
 
 #include "render/io/plain_images.h"
 #include "tests/ui/viewer/current_folder.h"
@@ -30,11 +30,11 @@ std::set<fs::path> files_in(const fs::path& folder) {
     return files;
 }
 
-TEST(DatedFile, NoNameIsGivenTwice) {
+TEST(DatedFile, NamesAreUnique) {
     const CurrentFolder folder;
     std::set<fs::path> names;
     for (int i = 0; i < 5; ++i)
-        names.insert(dated_file("-charts.csv")); // all within a second, and none of them written
+        names.insert(dated_file("-charts.csv")); // all within one second, and no file is written
     EXPECT_EQ(names.size(), 5u);
     for (const fs::path& name : names)
         EXPECT_EQ(name.string().find("-charts.csv"), name.string().size() - 11);
@@ -72,7 +72,7 @@ TEST_F(SavedAsExr, TheWriterGetsTheActivePane) {
     EXPECT_EQ(h.state().messages.back().text, "the disk is full");
 }
 
-TEST_F(SavedAsExr, OneAfterTheOtherAndEachInAFileOfItsOwn) {
+TEST_F(SavedAsExr, FilesAreWrittenInTurnUnderDifferentNames) {
     std::atomic<int> at_once = 0;
     std::atomic<bool> go = false;
     options.write_exr = [&](const fs::path& file, const SavedPicture&) {
@@ -85,14 +85,14 @@ TEST_F(SavedAsExr, OneAfterTheOtherAndEachInAFileOfItsOwn) {
     ViewerHarness h({900, 600}, 1, options);
     h.rest(2);
     for (int i = 0; i < 3; ++i)
-        h.type(Key::e, true); // while the first is being written
+        h.type(Key::e, true); // while the first is written
     go = true;
     h.finish_saving();
     EXPECT_EQ(files_in(folder.path).size(), 3u);
     EXPECT_EQ(h.state().messages.size(), 3u);
 }
 
-TEST_F(SavedAsExr, WhatIsWishedBeforeTheEndIsWritten) {
+TEST_F(SavedAsExr, FilesWishedBeforeTheEndAreWritten) {
     std::atomic<bool> go = false;
     options.write_exr = [&](const fs::path&, const SavedPicture&) {
         while (!go)
@@ -109,8 +109,8 @@ TEST_F(SavedAsExr, WhatIsWishedBeforeTheEndIsWritten) {
     EXPECT_EQ(calls, 3);
 }
 
-TEST_F(SavedAsExr, WhatFailsAtTheEndIsTold) {
-    std::atomic<bool> go = false; // only when no frame is to come that would show the message
+TEST_F(SavedAsExr, FailuresAtTheEndAreReported) {
+    std::atomic<bool> go = false; // set when no further frame can show the message
     options.write_exr = [&](const fs::path&, const SavedPicture&) {
         while (!go)
             std::this_thread::yield();
@@ -132,7 +132,7 @@ TEST_F(SavedAsExr, WhatFailsAtTheEndIsTold) {
     EXPECT_NE(told.find("the disk is full 2\n"), std::string::npos) << told;
 }
 
-TEST_F(SavedAsExr, ItSaysWhyNothingCanBeSaved) {
+TEST_F(SavedAsExr, TheReasonIsReportedIfNothingCanBeSaved) {
     options.write_exr = [&](const fs::path&, const SavedPicture&) { ++calls; };
     ViewerHarness h({900, 600}, 1, options);
     h.frames(2);
@@ -143,7 +143,7 @@ TEST_F(SavedAsExr, ItSaysWhyNothingCanBeSaved) {
     EXPECT_EQ(calls, 0);
 }
 
-TEST(SaveQueue, GivesWayToWhatDraws) {
+TEST(SaveQueue, HasALowerPriorityThanDrawing) {
     const int own = getpriority(PRIO_PROCESS, 0);
     int there = own;
     SaveQueue queue;
@@ -165,10 +165,10 @@ struct SavedView : testing::Test, ViewerHarness {
     }
 };
 
-TEST_F(SavedView, HasAPixelForEachOfTheImageInTheColoursOnShow) {
+TEST_F(SavedView, HasTheImagesPixelsInTheColoursOnShow) {
     rest(2);
     state().display.tone.curve = Tone::Curve::srgb;
-    state().display.view = ImageView(7, {0.1f, 0.9f}); // does not matter
+    state().display.view = ImageView(7, {0.1f, 0.9f}); // has no influence
     frames(2);
     const ScreenPixels saved = picture(1);
     const RgbImage& image = viewer.pictures().image(1).pixels();
@@ -187,7 +187,7 @@ TEST_F(SavedView, HasAPixelForEachOfTheImageInTheColoursOnShow) {
     EXPECT_FALSE(pixel[0] == pixel[1] && pixel[1] == pixel[2]);
 }
 
-TEST_F(SavedView, IsOfTheActivePaneAndItsDifference) {
+TEST_F(SavedView, ShowsTheActivePaneAndItsDifference) {
     rest(2);
     const ScreenPixels own = picture(1);
     state().panes[1].settings.comparison = {Comparison::Kind::difference, 0};
@@ -196,10 +196,10 @@ TEST_F(SavedView, IsOfTheActivePaneAndItsDifference) {
     state().panes[1].settings.comparison = {Comparison::Kind::wipe, 0};
     state().layout.wipe = 0;
     frames(2);
-    EXPECT_EQ(picture(1).rgb, own.rgb); // its own, wherever the line is
+    EXPECT_EQ(picture(1).rgb, own.rgb); // the pane's own picture, without the wipe
 }
 
-TEST_F(SavedView, IsWrittenByItsActionOrItSaysWhyNot) {
+TEST_F(SavedView, IsWrittenByItsActionOrReportsTheReason) {
     rest(2);
     type(Key::s, true, true);
     finish_saving();
@@ -216,7 +216,7 @@ TEST_F(SavedView, IsWrittenByItsActionOrItSaysWhyNot) {
     EXPECT_EQ(files_in(folder.path).size(), 1u);
 }
 
-TEST_F(SavedView, TheWindowIsWrittenTooAndNotByItsThread) {
+TEST_F(SavedView, TheWindowIsWrittenByABackgroundThread) {
     rest(2);
     type(Key::f12);
     finish_saving();
@@ -224,14 +224,14 @@ TEST_F(SavedView, TheWindowIsWrittenTooAndNotByItsThread) {
     EXPECT_EQ(state().messages.back().text.find("Saved "), 0u);
 }
 
-TEST_F(SavedView, UnderANameAndInAFolderOfOnesOwn) {
+TEST_F(SavedView, CanBeSavedUnderAChosenNameAndFolder) {
     fs::create_directory(folder.path / "pictures");
     rest(2);
     type(Key::s, true);
     frames(2);
     save("save");
     choose("file.kind", "window");
-    choose("file.kind", "picture"); // the name is of the kind
+    choose("file.kind", "picture"); // the name has the kind's ending
     click("file/pictures");
     frames(2);
     click("file.open");
@@ -240,10 +240,10 @@ TEST_F(SavedView, UnderANameAndInAFolderOfOnesOwn) {
     EXPECT_TRUE(fs::exists(file));
     EXPECT_THAT(state().layout.toast.text, testing::HasSubstr(file.string()));
 
-    type(Key::s, true, true); // by date, where was saved last
+    type(Key::s, true, true); // a dated name in the folder of the last save
     finish_saving();
     EXPECT_EQ(files_in(folder.path / "pictures").size(), 2u);
-    type(Key::s, true); // a name that is taken is not offered
+    type(Key::s, true); // the dialog offers an unused name
     frames(2);
     click("file.open");
     finish_saving();
@@ -251,13 +251,13 @@ TEST_F(SavedView, UnderANameAndInAFolderOfOnesOwn) {
     EXPECT_EQ(files_in(folder.path).size(), 1u);
 }
 
-/// A name that could not be written is forgotten: the next picture does not go there unasked.
-TEST_F(SavedView, ANameIsOfOneSaveAlone) {
+/// A name that could not be written is not used for the next picture.
+TEST_F(SavedView, ANameAppliesToOneSaveOnly) {
     rest(2);
     type(Key::s, true);
     frames(2);
     const fs::path beside = folder.path / "taken";
-    std::ofstream(beside) << "a file, no folder";
+    std::ofstream(beside) << "a file, not a folder";
     state().save(SaveKind::picture, (beside / "first.png").string());
     finish_saving();
     EXPECT_EQ(state().messages.back().kind, Message::Kind::error);
@@ -267,10 +267,10 @@ TEST_F(SavedView, ANameIsOfOneSaveAlone) {
     state().save(SaveKind::picture);
     finish_saving();
     EXPECT_FALSE(fs::exists(beside / "first.png"));
-    EXPECT_EQ(files_in(folder.path).size(), 2u) << "the folder, and a picture named by the date";
+    EXPECT_EQ(files_in(folder.path).size(), 2u) << "the folder, and a picture with a dated name";
 }
 
-TEST_F(SavedView, EveryKindIsSavedByTheDialog) {
+TEST_F(SavedView, TheDialogSavesEachKind) {
     rest(2);
     const char* const kinds[] = {"window", "settings", "camera", "charts"};
     for (const char* kind : kinds) {

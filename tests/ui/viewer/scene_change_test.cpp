@@ -1,4 +1,4 @@
-// Reloading, dropping files, and what the viewer says meanwhile.
+// Reloading and dropping scenes, with their messages.
 
 #include "render/scene/scene.h"
 #include "tests/ui/viewer_harness.h"
@@ -24,7 +24,7 @@ namespace {
 struct SceneFile {
     glm::vec3 eye{0, 0, 3.4f};
     SceneNotes notes;
-    std::string error; ///< not empty: it is broken
+    std::string error; ///< not empty: the file is broken
     int loads = 0;
 
     SceneLoader loader() {
@@ -95,10 +95,10 @@ TEST_F(SceneChange, ReloadKeepsCameraAndSettings) {
     EXPECT_EQ(pane(1).settings.render.max_depth, 7);
     EXPECT_EQ(state().display.tone.exposure, 1.5f);
     EXPECT_EQ(state().scene_info.name, "room.xml");
-    EXPECT_TRUE(state().history.can_undo()) << "what was done before, too";
+    EXPECT_TRUE(state().history.can_undo()) << "the history is kept";
 }
 
-TEST_F(SceneChange, AnotherSceneBeginsAnewWhatCanBeUndone) {
+TEST_F(SceneChange, AnotherSceneClearsTheHistory) {
     show();
     state().display.tone.exposure = 1.5f;
     frames(3);
@@ -108,7 +108,7 @@ TEST_F(SceneChange, AnotherSceneBeginsAnewWhatCanBeUndone) {
     EXPECT_FALSE(state().history.can_undo());
 }
 
-TEST_F(SceneChange, ReloadTakesTheFilesCameraIfThatHasChanged) {
+TEST_F(SceneChange, ReloadSetsTheFilesCameraIfItHasChanged) {
     show();
     state().camera.orbit({30, 10}, 100);
     file.eye = {0, 0, 3};
@@ -117,14 +117,14 @@ TEST_F(SceneChange, ReloadTakesTheFilesCameraIfThatHasChanged) {
     EXPECT_EQ(state().camera.position(), glm::vec3(0, 0, 3));
 }
 
-TEST_F(SceneChange, BrokenFileLeavesTheOldSceneAndSaysWhereItIsBroken) {
+TEST_F(SceneChange, ABrokenFileKeepsTheOldSceneAndReportsThePosition) {
     show();
     const auto before = state().scene;
     file.error = "room.xml:7:3: no such thing\n    <thing/>\n    ^";
     for (int i = 0; i < 3; ++i)
         reload();
     EXPECT_EQ(state().scene, before);
-    ASSERT_EQ(state().messages.size(), 1u) << "the same error comes once";
+    ASSERT_EQ(state().messages.size(), 1u) << "the same error is listed once";
     EXPECT_EQ(state().messages[0].text, file.error);
     EXPECT_EQ(state().messages[0].kind, Message::Kind::error);
     EXPECT_TRUE(state().layout.show_messages);
@@ -136,7 +136,7 @@ TEST_F(SceneChange, BrokenFileLeavesTheOldSceneAndSaysWhereItIsBroken) {
     EXPECT_FALSE(state().layout.show_messages);
 }
 
-TEST_F(SceneChange, FirstSceneThatWasBrokenCanBeLoadedAgain) {
+TEST_F(SceneChange, ABrokenFirstSceneCanBeReloaded) {
     file.error = "room.xml:1:1: empty";
     show();
     EXPECT_EQ(state().scene, nullptr);
@@ -147,7 +147,7 @@ TEST_F(SceneChange, FirstSceneThatWasBrokenCanBeLoadedAgain) {
     EXPECT_TRUE(viewer.loading() || file.loads == 3);
 }
 
-TEST_F(SceneChange, NotesAreThoseOfTheSceneOnShow) {
+TEST_F(SceneChange, NotesBelongToTheSceneOnShow) {
     file.notes = {{"room.xml:3:1: odd"}, {"room.xml:4:1: strange"}};
     show();
     state().add_message(Message::Kind::note, "something else");
@@ -160,7 +160,7 @@ TEST_F(SceneChange, NotesAreThoseOfTheSceneOnShow) {
     EXPECT_FALSE(says("strange"));
 }
 
-TEST_F(SceneChange, FiveHundredNotesAndAnErrorBelowThem) {
+TEST_F(SceneChange, TheListScrollsToAnErrorAfterFiveHundredNotes) {
     for (int i = 0; i < 500; ++i)
         file.notes.push_back(
             {"room.xml:" + std::to_string(i) +
@@ -179,9 +179,9 @@ TEST_F(SceneChange, FiveHundredNotesAndAnErrorBelowThem) {
     frames(3);
     EXPECT_EQ(state().messages.size(), 501u);
     EXPECT_FALSE(state().wishes.scroll_to_newest);
-    EXPECT_NE(screen().rgb, top.rgb) << "the list does not show its end";
+    EXPECT_NE(screen().rgb, top.rgb) << "the list does not scroll to its end";
     save("notes_error.png");
-    click("hide_messages"); // the buttons have not been scrolled away
+    click("hide_messages"); // the buttons do not scroll
     EXPECT_FALSE(state().layout.show_messages);
 }
 
@@ -192,14 +192,14 @@ TEST_F(SceneChange, DroppedSceneIsLoaded) {
     settle();
     EXPECT_EQ(opened, "/scenes/other.XML");
     EXPECT_EQ(state().scene_info.name, "/scenes/other.XML");
-    EXPECT_TRUE(state().camera.camera() == state().scene->camera()) << "another scene begins with its own camera";
+    EXPECT_TRUE(state().camera.camera() == state().scene->camera()) << "another scene starts with its own camera";
     EXPECT_TRUE(state().messages.empty());
     reload();
     EXPECT_EQ(state().scene_info.name, "/scenes/other.XML");
     EXPECT_EQ(file.loads, 3);
 }
 
-TEST_F(SceneChange, PanesThatWereTakenAwayHaveTheDepthOfTheScene) {
+TEST_F(SceneChange, ClosedPanesGetTheDepthOfTheScene) {
     show();
     state().linked = false;
     state().set_pane_count(2);
@@ -213,7 +213,7 @@ TEST_F(SceneChange, PanesThatWereTakenAwayHaveTheDepthOfTheScene) {
     EXPECT_EQ(state().panes[1].settings.render.max_depth, state().panes[0].settings.render.max_depth);
 }
 
-TEST_F(SceneChange, DroppedFileOfAnotherKindGetsAMessage) {
+TEST_F(SceneChange, ADroppedFileOfAnotherTypeGivesAMessage) {
     show();
     viewer.drop({"/pictures/cat.png", "list.txt"});
     viewer.drop({});
@@ -221,10 +221,10 @@ TEST_F(SceneChange, DroppedFileOfAnotherKindGetsAMessage) {
     EXPECT_FALSE(viewer.loading());
     EXPECT_TRUE(opened.empty());
     ASSERT_EQ(state().messages.size(), 1u);
-    EXPECT_TRUE(says("/pictures/cat.png: this is no scene"));
+    EXPECT_TRUE(says("/pictures/cat.png: the file type is unknown"));
 }
 
-TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
+TEST_F(SceneChange, ABrokenDroppedSceneKeepsTheOldOneWhichReloads) {
     show();
     file.error = "other.xml:1:1: broken";
     viewer.drop({"other.xml", "of_other.json"});
@@ -232,7 +232,7 @@ TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
     EXPECT_EQ(state().scene_info.name, "room.xml");
     EXPECT_TRUE(says("other.xml:1:1"));
     EXPECT_TRUE(state().wishes.open_settings.empty());
-    EXPECT_FALSE(says("of_other.json")) << "its settings are not for the scene that is left";
+    EXPECT_FALSE(says("of_other.json")) << "its settings do not apply to the scene on show";
     file.error.clear();
     reload();
     EXPECT_EQ(state().scene_info.name, "room.xml");
@@ -240,7 +240,7 @@ TEST_F(SceneChange, BrokenDroppedSceneLeavesTheOldOneWhichIsReloaded) {
     EXPECT_TRUE(state().messages.empty());
 }
 
-TEST_F(SceneChange, LoadingShowsWhatIsDoneAndIsGivenUpForAnother) {
+TEST_F(SceneChange, LoadingShowsProgressAndIsCancelledByAnother) {
     show();
     std::atomic<bool> ended{false};
     viewer.load("slow.xml", [&](SceneNotes&, LoadProgress& progress) -> std::shared_ptr<const Scene> {
@@ -262,10 +262,10 @@ TEST_F(SceneChange, LoadingShowsWhatIsDoneAndIsGivenUpForAnother) {
     EXPECT_TRUE(state().scene_info.loading.empty());
     wait_until([&] { return ended.load(); });
     frames(5);
-    EXPECT_TRUE(state().messages.empty()) << "nothing is heard of what was given up";
+    EXPECT_TRUE(state().messages.empty()) << "a cancelled load gives no message";
 }
 
-TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
+TEST_F(SceneChange, LoadingIsCancelledByTheButtonAndByEscape) {
     show();
     for (const bool by_key : {false, true}) {
         std::atomic<bool> ended{false};
@@ -283,7 +283,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
         save("cancel_load.png");
         if (by_key) {
             state().layout.show_help = true;
-            type(Key::escape); // closes the help alone
+            type(Key::escape); // only closes the help
             EXPECT_FALSE(state().layout.show_help);
             EXPECT_TRUE(viewer.loading());
             type(Key::escape);
@@ -295,7 +295,7 @@ TEST_F(SceneChange, LoadingIsGivenUpByTheButtonAndByEscape) {
         wait_until([&] { return ended.load(); });
         frames(3);
         EXPECT_EQ(state().scene_info.name, "room.xml");
-        EXPECT_TRUE(says("slow.xml was given up"));
+        EXPECT_TRUE(says("slow.xml was cancelled"));
         EXPECT_FALSE(says("of_slow.json"));
         EXPECT_FALSE(has("cancel_load"));
     }

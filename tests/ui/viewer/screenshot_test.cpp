@@ -26,11 +26,11 @@ struct Folder {
 };
 
 TEST(Screenshot, ReadsFromTheTopLeft) {
-    const test::OsmesaContext context({5, 3}); // rows of 15 bytes: no alignment
+    const test::OsmesaContext context({5, 3}); // rows of 15 bytes, which are not aligned
     glClearColor(0, 0, 1, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(0, 2, 1, 1); // OpenGL's rows go up
+    glScissor(0, 2, 1, 1); // OpenGL's rows begin at the bottom
     glClearColor(1, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     const ScreenPixels pixels = read_screen({5, 3});
@@ -40,11 +40,11 @@ TEST(Screenshot, ReadsFromTheTopLeft) {
     EXPECT_EQ(pixels.at(0, 1)[2], 255);
 }
 
-TEST(Screenshot, WritesAWholePngAndNothingElse) {
+TEST(Screenshot, WritesACompletePngAndNoOtherFile) {
     const Folder folder;
     const ScreenPixels pixels{{2, 2}, std::vector<std::uint8_t>(12, 200)};
     write_png(folder.path / "a.png", pixels.size, pixels.rgb);
-    write_png(folder.path / "a.png", pixels.size, pixels.rgb); // replaces
+    write_png(folder.path / "a.png", pixels.size, pixels.rgb); // replaces the file
     std::ifstream file(folder.path / "a.png", std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
     EXPECT_EQ(bytes.substr(1, 3), "PNG");
@@ -52,7 +52,7 @@ TEST(Screenshot, WritesAWholePngAndNothingElse) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 1);
 }
 
-TEST(Screenshot, UnwritablePathsAreNamed) {
+TEST(Screenshot, ErrorsNameTheUnwritablePath) {
     const Folder folder;
     const fs::path target = folder.path / "no such folder" / "a.png";
     try {

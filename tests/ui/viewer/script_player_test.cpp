@@ -72,13 +72,13 @@ TEST_F(Play, MeasuresFrames) {
     EXPECT_FALSE(state().camera.camera() == state().scene->camera());
 }
 
-TEST_F(Play, WhatCannotBeDoneNamesFileAndLine) {
+TEST_F(Play, ErrorsNameFileAndLine) {
     load_scene();
     EXPECT_EQ(error_of("key M\nclick nothing"),
-              "steps.txt:2: no control is called nothing (--log-actions lists those there are)");
-    EXPECT_EQ(error_of("\nkey Hyper"), "steps.txt:2: no key is called Hyper");
+              "steps.txt:2: unknown control nothing (--log-actions lists all controls)");
+    EXPECT_EQ(error_of("\nkey Hyper"), "steps.txt:2: unknown key Hyper");
     EXPECT_EQ(error_of("set tile 99").rfind("steps.txt:1: ", 0), 0u);
-    EXPECT_EQ(error_of("wait long"), "steps.txt:1: it is: wait scene | spp N | seconds S | reference");
+    EXPECT_EQ(error_of("wait long"), "steps.txt:1: usage: wait scene | spp N | seconds S | reference");
 }
 
 } // namespace

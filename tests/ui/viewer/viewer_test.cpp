@@ -27,7 +27,7 @@ TEST(Viewer, ShowsPicturesOfBothPanes) {
     h.save("viewer.png");
 }
 
-TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
+TEST(Viewer, DrawsWithoutASceneAndDuringALoad) {
     ViewerHarness h;
     h.frames(3);
     std::atomic<bool> go{false};
@@ -36,7 +36,7 @@ TEST(Viewer, DrawsBeforeAnySceneAndWhileOneLoads) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return viewer_scene();
     });
-    h.frames(3); // that they end shows that they do not wait: the scene comes only afterwards
+    h.frames(3); // frames do not wait: the scene is complete only afterwards
     EXPECT_TRUE(h.viewer.loading());
     EXPECT_LE(h.viewer.next_frame_in(), 0.1);
     EXPECT_EQ(h.pane(0).generation, 0u);
@@ -70,7 +70,7 @@ TEST(Viewer, OldSceneStaysWhenTheNextFails) {
     EXPECT_FALSE(h.has("clear_messages"));
 }
 
-TEST(Viewer, AnyChangeIsANewRequestInTheSameFrame) {
+TEST(Viewer, EachChangeIsANewRequestInTheSameFrame) {
     ViewerHarness h;
     h.load_scene();
     const auto expect_new = [&](int pane, bool expected, const char* what) {
@@ -113,7 +113,7 @@ TEST(Viewer, UploadsOnlyNewPictures) {
     EXPECT_GT(h.viewer.next_frame_in(), 10);
 }
 
-TEST(Viewer, ReconstructionSettingsChangeThePictureWithoutSamples) {
+TEST(Viewer, ReconstructionSettingsChangeThePictureWithoutNewSamples) {
     ViewerHarness h;
     h.rest(2);
     const auto before = h.pane(1).snapshot;
@@ -123,7 +123,7 @@ TEST(Viewer, ReconstructionSettingsChangeThePictureWithoutSamples) {
     EXPECT_EQ(h.pane(1).snapshot->spp, before->spp);
 }
 
-TEST(Viewer, RestsAtItsLimitAndIsThenSettled) {
+TEST(Viewer, StopsAtItsLimitAndIsSettled) {
     ViewerOptions options = ViewerHarness::two_panes();
     options.spp_limit = 3;
     ViewerHarness h({900, 500}, 1, options);
@@ -140,7 +140,7 @@ TEST(Viewer, RestsAtItsLimitAndIsThenSettled) {
 
 TEST(Viewer, SurvivesBeingOnePixelLarge) {
     ViewerOptions options = ViewerHarness::two_panes();
-    options.size = {}; // as the pane
+    options.size = {}; // fits the pane
     ViewerHarness h({700, 400}, 1, options);
     h.load_scene();
     const glm::ivec2 before = h.state().request_size();
@@ -153,7 +153,7 @@ TEST(Viewer, SurvivesBeingOnePixelLarge) {
     }
     h.state().layout.show_messages = false;
     h.resize({700, 400});
-    h.type(Key::r); // some of these sizes may have been taken: there was little to lose
+    h.type(Key::r); // some of these sizes may be latched, because few samples were lost
     EXPECT_EQ(h.state().request_size(), before);
     h.wait_until([&] {
         return h.pane(0).snapshot->generation == h.pane(0).generation && h.pane(0).snapshot->spp > 3 &&
@@ -164,7 +164,7 @@ TEST(Viewer, SurvivesBeingOnePixelLarge) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST(Viewer, WorksAtTwoAndThreeHundredPercent) {
+TEST(Viewer, WorksAtScalesOfTwoAndThree) {
     for (float scale : {2.0f, 3.0f}) {
         ViewerHarness h({1920, 1200}, scale);
         h.load_scene();
@@ -179,13 +179,13 @@ TEST(Viewer, ScaleChangesWhileRunning) {
     ViewerHarness h;
     h.frames(2);
     const float before = h.place("tile").max.y - h.place("tile").min.y;
-    h.scale_ = 1.5f; // dragged to another display
+    h.scale_ = 1.5f; // moved to another display
     h.frames(3);
     EXPECT_NEAR(h.place("tile").max.y - h.place("tile").min.y, before * 1.5f, 2);
-    EXPECT_GT(h.brightness("restart"), 40); // and still drawn
+    EXPECT_GT(h.brightness("restart"), 40); // and the button is drawn
 }
 
-TEST(Viewer, SaysWhenAMethodHasNoGradients) {
+TEST(Viewer, ReportsThatAMethodHasNoGradients) {
     ViewerHarness h;
     h.load_scene();
     h.state().panes[0].settings.buffer = Buffer::dx;
@@ -214,7 +214,7 @@ TEST(Viewer, LogsChangesAndControls) {
     EXPECT_TRUE(std::any_of(lines.begin(), lines.end(),
                             [](const std::string& l) { return l.rfind("control pane0.method/gpr ", 0) == 0; }));
     h.state().rendering.paused = true;
-    // Once the pass under way has ended, and its status is on show, nothing moves: no frame logs controls again.
+    // When the pass under way has ended and its status is shown, nothing moves, and no frame logs controls.
     bool quiet = false;
     for (int attempt = 0; attempt < 200 && !quiet; ++attempt) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""drop_files.py WINDOW FILE...: drops files on the middle of an X11 window, as a file manager does: XDND, version 5,
-text/uri-list. Fails unless the window takes them and says so within ten seconds."""
+"""drop_files.py WINDOW FILE...: drops files on the middle of an X11 window by XDND version 5 (text/uri-list), as a file
+manager does. Fails unless the window confirms within ten seconds that it accepts them."""
 
 import ctypes
 import pathlib
@@ -66,7 +66,7 @@ def library():
 
 
 class Source:
-    """Who drags: a window of its own, never shown, that owns XdndSelection."""
+    """The source of the drag: a hidden window that owns XdndSelection."""
 
     def __init__(self, target, files):
         self.x = library()
@@ -90,7 +90,7 @@ class Source:
         self.x.XFlush(self.display)
 
     def middle(self):
-        """Of the target, on the screen."""
+        """Returns the middle of the target in screen coordinates."""
         parent, x, y, width, height = c_ulong(), c_int(), c_int(), c_uint(), c_uint()
         self.x.XGetGeometry(self.display, self.target, byref(parent), byref(x), byref(y), byref(width), byref(height),
                             byref(c_uint()), byref(c_uint()))
@@ -107,7 +107,7 @@ class Source:
         return event
 
     def answer(self, request):
-        """Writes the files' names where the target asks for them."""
+        """Writes the file names to the property that the target requests."""
         self.x.XChangeProperty(self.display, request.requestor, request.property, request.target, 8, ReplaceMode,
                                self.list, len(self.list))
         event = Event()
@@ -126,14 +126,14 @@ class Source:
                 self.answer(event.request)
             elif event.type == ClientMessage and event.message.message_type == self.atom("XdndStatus"):
                 if not event.message.data[1] & 1:
-                    sys.exit("the window refuses the files")
+                    sys.exit("the window rejects the files")
                 self.send("XdndDrop", 0, CurrentTime)
             elif event.type == ClientMessage and event.message.message_type == self.atom("XdndFinished"):
-                return event.message.data[1] != 0  # GLFW gives the length of the list, not bit 0
+                return event.message.data[1] != 0  # GLFW sends the length of the list instead of bit 0
 
 
 if __name__ == "__main__":
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     if not Source(int(sys.argv[1], 0), sys.argv[2:]).drop():
-        sys.exit("the window has not taken the files")
+        sys.exit("the window has not accepted the files")

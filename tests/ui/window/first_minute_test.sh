@@ -1,6 +1,6 @@
 #!/bin/bash
-# The first minute of a new user, with the real window, mouse and keys: the steps, the seconds until each shows what it
-# should, and whether it does. With the scene within the program, and with one on which methods fail.
+# Plays the first minute of a new user in the real window with mouse and keys. Checks each step and prints its seconds.
+# Uses the built-in scene and a scene on which methods fail.
 #   first_minute_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
@@ -16,32 +16,32 @@ begin() {
     began=$(date +%s.%N)
 }
 
-# Says how long the step took that was begun last.
+# Prints the time of the last step.
 done_with() { printf '%-44s %6.2f s\n' "$1" "$(awk -v b="$began" -v e="$(date +%s.%N)" 'BEGIN { print e - b }')"; }
 
-# Waits until a pane has a picture of what it was last asked for; a first look is coarse. $2: " coarsely" will do.
+# Waits until a pane shows its last request. With $2 = " coarsely", a preview is sufficient.
 picture_in() {
     local asked
     asked=$(grep -E "^pane $1 generation " "$log" | tail -1 | grep -o '[0-9]*$')
     wait_for "^pane $1 shows $asked${2:+($2)?}\$"
 }
 
-# Whether a control's part of the screen is more than black.
+# Checks that a control's part of the screen is not black.
 shows() { more_than "$(brightness "$work/$1.png" "$(part_of "$2")")" 0.03 || fail "$2 is black: $1"; }
 changed() { more_than "$(distance "$1" "$2" "$(part_of "$3")")" 0.002 || fail "$3 looks the same: $1, $2"; }
 
-# A panel that came up since the step began takes no samples from the panes, however few there are.
+# Checks that a panel opened in this step has restarted no render.
 restarts_nothing() {
     tail -n "+$from" "$log" | grep -E '^pane [0-9] generation ' && fail "$1 restarted the panes"
     return 0
 }
 
-# $1: what the pictures are called; $2: options and scene.
+# $1: prefix of the pictures' names; $2: options and scene.
 minute() {
     local name=$1
     shift
     echo "$name"
-    rm -rf "$log" "$XDG_CONFIG_HOME" # of the last viewer
+    rm -rf "$log" "$XDG_CONFIG_HOME" # of the previous viewer
     began=$(date +%s.%N)
     from=1
     start_viewer "$@"
@@ -50,9 +50,9 @@ minute() {
     wait_for '^time picture '
     wait_for '^pane 1 generation '
     picture_in 1 " coarsely"
-    done_with "first look"
+    done_with "preview"
     picture_in 1
-    done_with "  and the first whole picture"
+    done_with "  and the first pass"
     look "$name-start"
     shows "$name-start" pane1.picture
 
@@ -61,9 +61,9 @@ minute() {
     wait_for '^panes 4$' "$from"
     wait_for '^pane 3 generation ' "$from"
     for pane in 0 1 2 3; do picture_in $pane " coarsely"; done
-    done_with "four panes, a first look in each"
+    done_with "four panes, a preview in each"
     for pane in 0 1 2 3; do picture_in $pane; done
-    done_with "  and whole pictures"
+    done_with "  and the first passes"
     look "$name-four"
     for pane in 0 1 2 3; do shows "$name-four" pane$pane.picture; done
 
@@ -73,7 +73,7 @@ minute() {
     wait_for '^pane 3 tile [0-9]+$' "$from"
     done_with "tile size dragged"
     picture_in 3 " coarsely"
-    done_with "  and the next first look"
+    done_with "  and the next preview"
 
     begin
     xdotool key i
@@ -108,7 +108,7 @@ minute() {
     wait_for '^messages ' "$from"
     done_with "picture saved"
     png=$(saved -reconstruction.png) || exit 1
-    more_than "$(brightness "$png")" 0.03 || fail "the picture that was saved is black"
+    more_than "$(brightness "$png")" 0.03 || fail "the saved picture is black"
     rm -f "$png"
     xdotool key ctrl+q
     expect_end "ctrl+q" 0

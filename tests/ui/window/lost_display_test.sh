@@ -1,6 +1,6 @@
 #!/bin/bash
-# Ends the viewer from outside while it renders: by taking its display away, and by signals. It must end by itself, with
-# a message where something went wrong, and have its layout remembered.
+# Ends the viewer while it renders, by killing its display server and by signals. It must exit by itself, report a lost
+# display, and store its layout.
 #   lost_display_test.sh PATH_OF_TESSERA
 set -u
 source "$(dirname "$0")/real_window.sh"
@@ -8,7 +8,7 @@ need Xvfb
 server=
 ulimit -c unlimited
 
-start() { # a server, and the viewer on it, which renders
+start() { # starts a display server, and a viewer that renders on it
     rm -rf "$work/config" "$work/display"
     mkfifo "$work/display"
     Xvfb -displayfd 3 -screen 0 1024x768x24 3>"$work/display" 2>/dev/null &
@@ -18,10 +18,10 @@ start() { # a server, and the viewer on it, which renders
     wait_for '^pane 1 spp ([2-9]|[1-9][0-9]+)$'
 }
 
-remembered() { grep -q '"window"' "$work/config/tessera/viewer.json" || fail "the layout is not remembered: $1"; }
+remembered() { grep -q '"window"' "$work/config/tessera/viewer.json" || fail "the layout is not stored: $1"; }
 
 start
-rm "$work/config/tessera/viewer.json" 2>/dev/null # written when a scene is shown, too
+rm "$work/config/tessera/viewer.json" 2>/dev/null # also written when a scene is shown
 kill -9 $server
 expect_end "no display" 3
 grep -q 'display is lost' "$work/errors" || fail "no message of the lost display"
@@ -41,5 +41,5 @@ start --script "$work/steps.txt"
 kill -TERM $viewer
 expect_end "TERM and a script" 130
 
-ls "$work" | grep -q '^core' && fail "a core"
+ls "$work" | grep -q '^core' && fail "a core dump"
 echo passed

@@ -1,16 +1,16 @@
-# What the tests of the real window share: the viewer in a process of its own, and what it says of itself
-# (--log-actions), mouse and keys for it, and pictures of its screen. To be sourced, with the path of the program and
-# perhaps a folder for the pictures; after virtual_display.sh, unless the test has a display of its own.
+# Functions for tests of the real window: they start the viewer with --log-actions, send mouse and key events, and take
+# pictures of the screen. To be sourced with the program's path and optionally a folder for pictures, after
+# virtual_display.sh unless the test starts its own display.
 tessera=$(realpath "$1")
 pictures=${2:+$(realpath "$2")}
 work=$(mktemp -d)
-log=$work/log # and its errors in $work/errors
+log=$work/log # standard error is in $work/errors
 viewer=
-export XDG_CONFIG_HOME=$work/config # remembers nothing of the user's, and leaves nothing there
-cd "$work" || exit 1                # what is saved lies here, and a core would
+export XDG_CONFIG_HOME=$work/config # keeps the user's preferences untouched
+cd "$work" || exit 1                # saved files and core dumps are put here
 trap end EXIT
 
-# Everything that was started, and what it has left.
+# Ends all started processes, and removes their files.
 end() {
     kill $viewer ${server:-} 2>/dev/null
     wait
@@ -65,7 +65,7 @@ expect_end() {
     [ $code -eq "$2" ] || fail "exit code $code: $1"
 }
 
-# Presses a key, and waits for the line that it is to bring.
+# Presses a key, and waits for a line of the log.
 press() {
     local from
     from=$(next_line)
@@ -73,16 +73,16 @@ press() {
     wait_for "$2" "$from"
 }
 
-# Where a control lies, as last logged: x0 y0 x1 y1.
+# Prints a control's last logged rectangle: x0 y0 x1 y1.
 rect_of() {
     wait_for "^control $1 "
     grep -E "^control $1 " "$log" | tail -1 | cut -d ' ' -f 3-6
 }
 
-# Its middle.
+# Prints a control's middle.
 place_of() { rect_of "$1" | awk '{ print int(($1 + $3) / 2), int(($2 + $4) / 2) }'; }
 
-# Clicks on a control, once it stays where it is: a new window settles within some frames.
+# Clicks on a control when its position is stable, because a new window settles within some frames.
 click() {
     local place=
     until [ "$place" = "$(place_of "$1")" ]; do
@@ -103,17 +103,17 @@ drag() {
     xdotool mouseup 1
 }
 
-# The screen as it is now, kept as NAME.png.
+# Saves the screen as NAME.png.
 look() {
     sleep 0.3
     import -window root "$work/$1.png" || fail "no picture of the screen"
     keep "$work/$1.png"
 }
 
-# A sum of a picture's pixels: alike pictures have the same.
+# Prints a checksum of a picture's pixels.
 pixels_of() { convert "$work/$1.png" -format '%#' info:; }
 
-# The screen once nothing moves on it any more.
+# Saves the screen when nothing moves.
 look_at_rest() {
     look "$1"
     for _ in $(seq 100); do
@@ -126,13 +126,13 @@ look_at_rest() {
 
 keep() { [ -z "$pictures" ] || cp "$1" "$pictures/"; }
 
-# Mean brightness, 0 to 1, of a picture, or of a part of it.
+# Prints the mean brightness of a picture or of a part of it, [0, 1].
 brightness() { convert "$1" ${2:+-crop $2} -colorspace Gray -format '%[fx:mean]' info:; }
 
-# A control's part of the screen, for convert.
+# Prints a control's rectangle as an ImageMagick geometry.
 part_of() { rect_of "$1" | awk '{ printf "%dx%d+%d+%d", $3 - $1, $4 - $2, $1, $2 }'; }
 
-# Mean distance, 0 to 1, of two pictures of the screen in a part of it.
+# Prints the mean difference of two pictures in a part of the screen, [0, 1].
 distance() {
     convert "$work/$1.png" "$work/$2.png" -crop "$3" +repage -compose difference -composite -colorspace Gray \
         -format '%[fx:mean]' info:
@@ -140,5 +140,5 @@ distance() {
 
 more_than() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > b) }'; }
 
-# The file whose name ends so, or as this pattern.
+# Prints the saved file whose name ends with this pattern.
 saved() { ls "$work"/*$1 2>/dev/null || fail "nothing was saved: $1"; }

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The real viewer under a virtual display, and the files that it is given: scenes that change and break, scripts, names
-# under which nothing can be read or written.
+# Tests the files that the real viewer reads, under a virtual display: scenes that change and break, scripts,
+# and files that cannot be read or written.
 #   window_files_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
@@ -9,7 +9,7 @@ assets=$(realpath "$(dirname "$0")/../../../assets")
 source "$(dirname "$0")/real_window.sh"
 need xdotool import convert
 
-# --- a scene file: reloaded, broken and mended; the window is named after it, and the camera saved beside it ---
+# --- a scene file: reloaded, broken and repaired; it names the window and the saved camera ---
 
 scene=$work/box.xml
 cp "$assets/cornell-box.xml" "$scene"
@@ -34,7 +34,7 @@ from=$(next_line)
 press F5 '^scenes shown 3$'
 wait_for '^messages 0$' "$from"
 
-# --- files dropped on the window: a reference, another scene with a blank in its name, and what is neither ---
+# --- files dropped on the window: a reference, a scene with a blank in its name, and another type of file ---
 
 drop() { "$(dirname "$assets")/tests/ui/window/drop_files.py" "$window" "$@" || fail "cannot be dropped: $*"; }
 window=$(xdotool search --name "^Tessera - $scene\$")
@@ -56,7 +56,7 @@ grep -q to_world "$work/box-camera.json" || fail "no camera was saved"
 xdotool key ctrl+q
 expect_end "ctrl+q" 0
 
-# --- the program's own picture, in a window and without any display ---
+# --- screenshots, in a window and without a display ---
 
 "$tessera" view --screenshot "$work/own.png" --spp 4 || fail "no screenshot"
 more_than "$(brightness "$work/own.png")" 0.05 || fail "the screenshot is black"
@@ -66,7 +66,7 @@ more_than "$(brightness "$work/none.png")" 0.05 || fail "the screenshot without 
 keep "$work/own.png"
 keep "$work/none.png"
 
-# --- scripts, in a window and without any display ---
+# --- scripts, in a window and without a display ---
 
 cat >"$work/steps.txt" <<EOF
 wait scene
@@ -86,7 +86,7 @@ keep "$work/script.png"
 rm "$work/script.png"
 env -u DISPLAY "$tessera" view --script "$work/steps.txt" --size 64x48 >/dev/null || fail "no script without a display"
 [ -e "$work/script.png" ] || fail "no picture by a script without a display"
-# a drag begins where the script presses, and so has the end of the legend, not the camera
+# a drag begins at the press, so it moves the end of the legend, not the camera
 cat >"$work/steps.txt" <<EOF
 wait scene
 set active 1
@@ -100,19 +100,19 @@ EOF
 [ "$(grep '^camera ' "$work/out" | tail -n 1)" = 'camera 0 1 5.2 toward 0 0 -1' ] || fail "the drag of a legend moves the camera"
 printf 'wait scene\nclick nowhere\n' >"$work/steps.txt"
 "$tessera" view --script "$work/steps.txt" 2>"$work/errors"
-[ $? -eq 2 ] || fail "a script that goes wrong does not end with exit code 2"
-grep -q 'steps.txt:2: no control' "$work/errors" || fail "no message names file and line"
+[ $? -eq 2 ] || fail "a failing script does not end with exit code 2"
+grep -q 'steps.txt:2: unknown control' "$work/errors" || fail "no message names file and line"
 
 # --- bad input: exit code 2, a message, no file ---
 
 "$tessera" view "$work/absent.xml" --screenshot "$work/absent.png" 2>"$work/errors"
 [ $? -eq 2 ] || fail "an absent scene does not end with exit code 2"
 grep -q absent.xml "$work/errors" || fail "no message names the absent scene"
-[ ! -e "$work/absent.png" ] || fail "a picture of nothing"
+[ ! -e "$work/absent.png" ] || fail "a picture without a scene is written"
 "$tessera" view --screenshot "$work/no/such/folder.png" --spp 1 2>"$work/errors"
 [ $? -eq 2 ] || fail "an unwritable picture does not end with exit code 2"
 
-# --- without a word it opens as well, or says without a display what there is ---
+# --- without a command: opens the viewer, or without a display lists the commands ---
 
 env -u DISPLAY -u WAYLAND_DISPLAY "$tessera" 2>"$work/errors"
 [ $? -eq 2 ] || fail "without a display and a command it does not end with exit code 2"
@@ -126,7 +126,7 @@ for _ in $(seq 300); do
     sleep 0.1
 done
 [ -n "$window" ] || fail "without a command no window opens"
-for _ in $(seq 20); do # until it has the keyboard
+for _ in $(seq 20); do # until the window has the keyboard focus
     is_running || break
     xdotool key ctrl+q
     sleep 0.5

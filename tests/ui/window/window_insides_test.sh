@@ -1,7 +1,6 @@
 #!/bin/bash
-# The real viewer under a virtual display, and what it shows beside plain pictures: the slow motion, errors to a
-# reference, charts; and settings that are saved and taken back. The panes rest at a few samples, so that pictures can
-# be compared to the bit.
+# Tests slow motion, errors against a reference, charts, and settings files in the real viewer, under a virtual display.
+# The panes stop at a few samples, so that pictures are bit-identical.
 #   window_insides_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
@@ -11,22 +10,22 @@ source "$(dirname "$0")/real_window.sh"
 need xdotool import convert
 
 spp=8
-all_samples() { # of both panes, in a request later than that line of the log
+all_samples() { # waits for both panes; $1: first line of the log to read
     wait_for "^pane 0 spp $spp\$" "$1"
     wait_for "^pane 1 spp $spp\$" "$1"
 }
 
-# Whether two pictures of the screen are the same in the right pane, or differ there.
+# Check that two pictures of the screen are equal in the right pane, or that they differ.
 same() { [ "$(distance "$1" "$2" "$picture")" = 0 ] || fail "the pictures differ: $1, $2"; }
 differ() { more_than "$(distance "$1" "$2" "$picture")" "$3" || fail "the pictures do not differ: $1, $2"; }
 
-# The share of a control's part of a picture that is colourful, as lines of charts are.
+# Prints the fraction of saturated pixels in a control's part of a picture. Lines of charts are saturated.
 colourful() {
     convert "$work/$1.png" ${2:+-crop "$(part_of "$2")"} -colorspace HSL -channel G -separate -threshold 40% \
         -format '%[fx:mean]' info:
 }
 
-# Opens a file of the current folder in the dialog that this key brings.
+# Opens a file of the current folder in the dialog of this key.
 choose() {
     press "$1" "^control file/$2 "
     click "file/$2"
@@ -41,19 +40,19 @@ picture=$(part_of pane1.picture)
 xdotool mousemove $(place_of pane0.picture)
 look_at_rest rest
 
-# --- the slow motion: it plays by itself, steps by key, and gives the picture back ---
+# --- the slow motion: it plays, steps by key, and restores the picture ---
 
 from=$(next_line)
 press j '^slow motion on$'
 wait_for '^slow motion at tile .* path [2-9]' "$from"
-xdotool key greater # and it waits there
+xdotool key greater # stops the playback
 look_at_rest slow
 differ rest slow 0.05
 path=$(grep '^slow motion at ' "$log" | tail -1 | grep -o '[0-9]*$')
 press greater "^slow motion at tile .* path $((path + 1))\$"
 look_at_rest step
 differ slow step 0.0005
-more_than "$(distance slow step "$(part_of slow.progress)")" 0 || fail "the slow motion's panel does not go on"
+more_than "$(distance slow step "$(part_of slow.progress)")" 0 || fail "the panel of the slow motion does not change"
 press less "^slow motion at tile .* path $path\$"
 look_at_rest back
 same slow back
@@ -61,7 +60,7 @@ press j '^slow motion off$'
 look_at_rest ended
 same rest ended
 
-# --- errors: none without a reference; with one, they are shown ---
+# --- errors are shown only with a reference ---
 
 press 7 '^pane 1 buffer relMSE$'
 look_at_rest unknown
@@ -73,12 +72,12 @@ look_at_rest errors
 differ unknown errors 0.02
 more_than "$(brightness "$work/errors.png" "$picture")" 0.1 || fail "all errors are zero"
 
-# --- charts: drawn, and saved with the errors that tessera compare finds, too ---
+# --- charts: drawn, and saved with the same errors as tessera compare prints ---
 
 press h '^charts on$'
 wait_for '^control charts.figures1 '
 from=$(next_line)
-xdotool key r # for more than one point
+xdotool key r # restarts, for more than one point
 all_samples "$from"
 look_at_rest charts
 more_than "$(colourful charts charts.error)" 0.001 || fail "there are no lines in the chart"
@@ -88,12 +87,12 @@ svg=$(saved -charts.svg) || exit 1
 png=$(saved -charts.png) || exit 1
 keep "$png"
 mv "$png" "$work/charts-saved.png"
-more_than "$(colourful charts-saved)" 0.001 || fail "there are no lines in the chart that was saved"
-grep -q '<polyline' "$svg" && tail -1 "$svg" | grep -q '</svg>' || fail "the chart that was saved is no whole SVG"
+more_than "$(colourful charts-saved)" 0.001 || fail "there are no lines in the saved chart"
+grep -q '<polyline' "$svg" && tail -1 "$svg" | grep -q '</svg>' || fail "the saved chart is not a complete SVG"
 press ctrl+e '^messages '
 exr=$(saved -gpr.exr) || exit 1
 "$tessera" compare "$exr" "$work/reference.exr" >"$work/compared" || fail "the saved files cannot be compared"
-error_in_chart() { # of the pane with this number, at the last sample
+error_in_chart() { # prints the error of pane number $1 at the last sample
     awk -F, -v pane="$1" -v spp=$spp '
         NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
         $column["pane"] == pane && $column["spp"] == spp { error = $column["relMSE"] }
@@ -106,7 +105,7 @@ awk -v chart="$(error_in_chart 2)" '/floor-free/ { off = chart / $3 - 1 } END { 
 more_than "$(error_in_chart 1)" "$(error_in_chart 2)" || fail "PT has no larger error than G-PR"
 press h '^charts off$'
 
-# --- a reference made in the background: written, and opened ---
+# --- a reference rendered in the background: written and opened ---
 
 press ctrl+m '^control reference.make '
 click reference.spp
@@ -117,17 +116,17 @@ click reference.make
 wait_for '^reference .*-64x48-.*\.exr$' "$from"
 click reference.close
 made=$(saved -64x48-d*.exr) || exit 1
-"$tessera" compare "$made" "$work/reference.exr" >"$work/compared" || fail "what was made cannot be compared"
+"$tessera" compare "$made" "$work/reference.exr" >"$work/compared" || fail "the rendered reference cannot be compared"
 awk '/floor-free/ { seen = $3 < 0.01 } END { exit !seen }' "$work/compared" ||
-    fail "the reference that was made is another picture: $(cat "$work/compared")"
+    fail "the rendered reference is another picture: $(cat "$work/compared")"
 
-# --- settings: saved, everything changed, and taken back ---
+# --- settings: saved, changed, and restored ---
 
-press 2 '^pane 1 buffer primal$' # as reconstructions go on from the last one, and are not the same to the bit
+press 2 '^pane 1 buffer primal$' # incremental reconstructions are not bit-identical, so the primal image is compared
 press plus '^exposure 0.5$'
 press ctrl+p '^messages '
 settings=$(saved -settings.json) || exit 1
-sleep 6 # until what was said over the pictures is gone
+sleep 6 # until toasts have disappeared
 look_at_rest settings
 press 0 '^exposure 0$'
 press m '^pane 1 method pt$'

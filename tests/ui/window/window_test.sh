@@ -1,6 +1,6 @@
 #!/bin/bash
-# Starts the real viewer in a window under a virtual display, drives it with synthetic mouse and keys, and looks at
-# what it says it did (--log-actions), at what the screen shows, and at the files that it writes.
+# Starts the real viewer under a virtual display, drives it with synthetic mouse and keys, and checks its log
+# (--log-actions), the screen, and the files that it writes.
 #   window_test.sh PATH_OF_TESSERA [FOLDER_FOR_PICTURES]
 set -u
 
@@ -32,7 +32,7 @@ wait_for '^control pane0.method/gpr ' "$from"
 click pane0.method/gpr
 wait_for '^pane 0 method gpr$' "$from"
 
-# the keys of an open list are its own
+# an open list receives the keys
 from=$(next_line)
 click pane0.method
 wait_for '^control pane0.method/gpr ' "$from"
@@ -42,8 +42,8 @@ wait_for '^pane 0 method gpt$' "$from"
 click pane0.method
 xdotool sleep 0.3 key Down sleep 0.3 key Escape
 sleep 0.5
-tail -n "+$from" "$log" | grep -qE '^camera ' && fail "an arrow of an open list turns the camera"
-tail -n "+$from" "$log" | grep -qE '^pane 0 method gpr$' && fail "Esc takes what it should leave"
+tail -n "+$from" "$log" | grep -qE '^camera ' && fail "an arrow key in an open list moves the camera"
+tail -n "+$from" "$log" | grep -qE '^pane 0 method gpr$' && fail "Esc accepts the selected item"
 from=$(next_line)
 click pane0.method
 wait_for '^control pane0.method/gpr ' "$from"
@@ -52,7 +52,7 @@ wait_for '^pane 0 method gpr$' "$from"
 wait_for '^pane 0 generation ' "$from"
 wait_for '^pane 0 spp [1-9]' "$from"
 look method
-more_than "$(distance start method "$(part_of pane0.method)")" 0.003 || fail "the method's name is not another"
+more_than "$(distance start method "$(part_of pane0.method)")" 0.003 || fail "the method's name does not change"
 
 from=$(next_line)
 click tile
@@ -90,7 +90,7 @@ noise=$(distance before home "$picture")
 echo "distance of pictures: $moved after an orbit, $noise when back"
 more_than "$moved" "$(awk -v n="$noise" 'BEGIN { print 2 * n }')" || fail "the picture does not follow the camera"
 
-# --- panes: a wipe's line is dragged, a key held, the grid changed ---
+# --- panes: dragging a wipe's line, holding a key, changing the number of panes ---
 
 from=$(next_line)
 xdotool mousemove "$x" "$y" click 1
@@ -111,7 +111,7 @@ wait_for '^pane 3 spp [1-9]' "$from"
 look four
 press ctrl+2 '^panes 2$'
 
-# --- the path inspector: a click on a pixel brings its tables ---
+# --- the path inspector: a click on a pixel shows its tables ---
 
 press i '^inspector on$'
 from=$(next_line)
@@ -120,7 +120,7 @@ wait_for '^inspected pane 1 pixel ' "$from"
 wait_for '^control vertices.title ' "$from"
 wait_for '^control shifts.row0 ' "$from"
 look inspect
-more_than "$(distance home inspect "$(part_of vertices.title)")" 0.003 || fail "no table is to be seen"
+more_than "$(distance home inspect "$(part_of vertices.title)")" 0.003 || fail "no table is visible"
 press i '^inspector off$'
 
 # --- saving: the view as PNG, the pane as EXR with its layers ---
@@ -135,11 +135,11 @@ exr=$(saved -gpr.exr) || exit 1
 for layer in primal dx albedo first_hit_normal first_hit_depth; do
     grep -aq "$layer.R" "$exr" || fail "the saved EXR has no layer $layer"
 done
-xdotool key F2 # which says so
+xdotool key F2 # opens the messages
 look save
 xdotool key F2
 
-# --- while paused, nothing is drawn and no processor used, once the pass that was under way has ended ---
+# --- while paused, after the pass under way, the viewer draws nothing and uses no processor time ---
 
 press space '^paused on$'
 used=100
@@ -154,7 +154,7 @@ echo "processor time while paused: $used hundredths in 2 seconds (attempt $attem
 [ "$used" -lt 30 ] || fail "busy while paused"
 press space '^paused off$'
 
-# --- a window of one pixel, and one that is minimised, and back ---
+# --- a window of one pixel, a minimised window, and a restored one ---
 
 window=$(xdotool search --name '^Tessera') || fail "no window"
 read -r width height <<<"$(xdotool getwindowgeometry --shell "$window" | awk -F= '/^(WIDTH|HEIGHT)=/ { printf "%s ", $2 }')"
@@ -171,25 +171,25 @@ wait_for '^pane 1 spp [1-9]' "$from"
 look resized
 shows_a_picture resized
 
-# Without a window manager: what one does to minimise and to restore [ICCCM, 4.1.3.1 and 4.1.4].
+# Minimises and restores the window as a window manager does [ICCCM, 4.1.3.1 and 4.1.4].
 from=$(next_line)
 xprop -id "$window" -f WM_STATE 32i -set WM_STATE 3
 xdotool windowunmap --sync "$window"
 look minimised
-more_than 0.01 "$(brightness "$work/minimised.png")" || fail "the window is still there"
-wait_for '^pane 1 spp ' "$from" # it renders on
+more_than 0.01 "$(brightness "$work/minimised.png")" || fail "the minimised window is visible"
+wait_for '^pane 1 spp ' "$from" # rendering continues
 from=$(next_line)
 xdotool windowmap --sync "$window"
 xprop -id "$window" -f WM_STATE 32i -set WM_STATE 1
 wait_for '^pane 1 spp ' "$from"
 look restored
 shows_a_picture restored
-press t '^statistics on$' # and it hears
+press t '^statistics on$' # keys work
 
 # --- quit ---
 
 xdotool key ctrl+q
 expect_end "ctrl+q" 0
 look quit
-more_than 0.01 "$(brightness "$work/quit.png")" || fail "something is left on the screen"
+more_than 0.01 "$(brightness "$work/quit.png")" || fail "the screen is not empty"
 echo passed
