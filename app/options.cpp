@@ -72,7 +72,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     add_scene(command, words, true);
     add_settings(command, words);
     add_method(command, words.settings.method);
-    add_setting(command, spp_setting(words.spp))->default_str(std::to_string(usual_spp));
+    add_setting(command, spp_setting(words.spp))->default_str(std::to_string(default_spp));
     limit_to_seconds(command.add_option("--time", words.time, "render time in seconds, without loading"));
     add_clock(command, words.clock);
     add_norms(command, words.norms, "or several: one layer each (default guided with gradients)");
@@ -185,7 +185,7 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
                          threads);
     };
     options.panes = panes_of(command, words);
-    options.panes_as_remembered =
+    options.uses_stored_pane_count =
         command.count("--panes") + command.count("--method") + command.count("--inspect") == 0;
     if (command.count("--max-depth"))
         options.max_depth = words.settings.max_depth;
@@ -221,15 +221,15 @@ int run_command_line(int argc, char** argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Words render_words, view_words, info_words;
     RenderOptions render_options;
-    ExperimentWords sweep_words, bench_words, stability_words;
-    ReferenceWords reference_words;
+    ExperimentArguments sweep_words, bench_words, stability_words;
+    ReferenceArguments describe_references;
     MergeOptions merge_options;
     CompareOptions compare_options;
     ViewOptions view_options;
-    ReconstructWords reconstruct_words;
+    ReconstructArguments reconstruct_words;
     add_view(app, view_words, view_options);
     add_render(app, render_words, render_options);
-    add_reference(app, reference_words);
+    add_reference(app, describe_references);
     add_merge(app, merge_options);
     add_sweep(app, sweep_words);
     add_bench(app, bench_words);
@@ -264,7 +264,7 @@ int run_command_line(int argc, char** argv) {
     if (app.got_subcommand("stability"))
         return run_stability(parse_experiment(*app.get_subcommand("stability"), stability_words));
     if (app.got_subcommand("reference"))
-        return run_reference(parse_reference(*app.get_subcommand("reference"), reference_words));
+        return run_reference(parse_reference(*app.get_subcommand("reference"), describe_references));
     if (app.got_subcommand("merge"))
         return run_merge(merge_options);
     if (app.got_subcommand("view"))

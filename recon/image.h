@@ -165,7 +165,7 @@ struct Demodulation {
     RgbImage albedo;              ///< A: mean of a over points of the pixel that are no samples
     RgbImage sampled_albedo;      ///< m(a): mean of a over the samples
     Image<float> albedo_variance; ///< V_a: of a over the points of the pixel, summed over the channels
-    Image<float> sampled_share;   ///< weight of m(a) against A in known_albedo(), in [0, 1]
+    Image<float> sampled_weight;  ///< weight of m(a) against A in known_albedo(), in [0, 1]
 
     // Variance and covariance over a pixel's samples, per channel; 0 for one sample.
     RgbImage sampled_variance; ///< of a
@@ -248,8 +248,8 @@ struct GradientImages {
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
 
     Demodulation demodulation{};
-    std::vector<BasisComponent> parts{}; ///< components of the basis; empty: e is reconstructed as a whole
-    BrightestSamples brightest{};        ///< empty: unknown
+    std::vector<BasisComponent> components{}; ///< components of the basis; empty: e is reconstructed as a whole
+    BrightestSamples brightest{};             ///< empty: unknown
     HalfDifferences halves{};
     FeatureImages features{};
 

@@ -11,7 +11,7 @@ namespace tessera {
 
 /// Returns the feature albedo of pixel i, at least `least`; 1 without features. Radiance / albedo is like
 /// irradiance.
-inline Rgb seen_albedo(const FeatureImages& features, std::size_t i, float least) {
+inline Rgb feature_albedo(const FeatureImages& features, std::size_t i, float least) {
     return features.empty() ? Rgb(1) : glm::max(features.albedo.data()[i], Rgb(least));
 }
 

@@ -40,7 +40,7 @@ Guarantee guarantee_of(Norm norm) {
     return {biased, ""};
 }
 
-bool expands(Norm norm) {
+bool reconstructs_components(Norm norm) {
     return norm == Norm::l2 || norm == Norm::l1 || norm == Norm::mixed || norm == Norm::weighted;
 }
 

@@ -68,6 +68,6 @@ struct Guarantee {
 Guarantee guarantee_of(Norm norm);
 
 /// Returns whether a reconstruction solves for the components of a basis. The others reconstruct e as a whole.
-bool expands(Norm norm);
+bool reconstructs_components(Norm norm);
 
 } // namespace tessera

@@ -48,10 +48,10 @@ struct GuidedParameters {
     float least_albedo = 0.02f;   ///< the smallest albedo by which radiance is divided
 
     // Redistribution, METHODS (59) and (60).
-    float most_added = 0.1f;     ///< largest addition to a pixel with similar features, relative to S
-    int around_radius = 6;       ///< radius of the blur that spreads the rest
-    std::size_t near_levels = 2; ///< kernel levels whose mean brightness the rest follows; not tuned
-    float least_local = 1e-4f;   ///< weight of L in that brightness, for black surroundings; not tuned
+    float largest_addition = 0.1f; ///< largest addition to a pixel with similar features, relative to S
+    int around_radius = 6;         ///< radius of the blur that spreads the rest
+    std::size_t near_levels = 2;   ///< kernel levels whose mean brightness the rest follows; not tuned
+    float least_local = 1e-4f;     ///< weight of L in that brightness, for black surroundings; not tuned
 
     // Filter and regression, METHODS (48) to (55).
     std::size_t levels = 4; ///< number of filter levels, each three times as wide as the last

@@ -150,7 +150,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool) {
 
 SceneLoader loader_of(const SceneSource& source, int threads) {
     return [source, threads](SceneNotes& notes, LoadProgress& progress) {
-        work_in_background(); // its worker threads inherit the priority
+        lower_priority(); // its worker threads inherit the priority
         ThreadPool pool(threads);
         const OpenedScene opened = open_scene(source, pool, &progress);
         notes = group_notes(opened.notes);

@@ -223,7 +223,7 @@ std::vector<std::string> render_option_names() {
     return names;
 }
 
-void add_picture_options(CLI::App& command, PictureWords words) {
+void add_picture_options(CLI::App& command, PictureArguments words) {
     add_setting(command, size_setting(words.size))->default_str("the scene's");
     for (const Setting& setting : settings_of(words.settings))
         add_setting(command, setting);

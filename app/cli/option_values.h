@@ -70,7 +70,7 @@ std::string option_words(RenderSettings from, RenderSettings to);
 std::vector<std::string> render_option_names();
 
 /// Destinations of the options of a picture.
-struct PictureWords {
+struct PictureArguments {
     glm::ivec2& size; ///< 0: not given
     RenderSettings& settings;
     ReconstructionSettings& reconstruction;
@@ -78,6 +78,6 @@ struct PictureWords {
 };
 
 /// Adds an option for every render setting but the method, and --size, --seed and --threads.
-void add_picture_options(CLI::App& command, PictureWords words);
+void add_picture_options(CLI::App& command, PictureArguments words);
 
 } // namespace tessera

@@ -7,7 +7,7 @@
 #include "render/io/files.h"
 #include "render/io/json_text.h"
 #include "render/io/plain_images.h"
-#include "render/run/fitting_reconstruction.h"
+#include "render/run/checked_reconstruction.h"
 
 #include <algorithm>
 #include <string>
@@ -75,23 +75,23 @@ void add_demodulation(ExrFile& file, Demodulation&& d) {
     add_layer(file, "mean_albedo", std::move(d.albedo));
     add_layer(file, "sampled_albedo", std::move(d.sampled_albedo));
     add_numbers(file, "albedo_variance", d.albedo_variance);
-    add_numbers(file, "sampled_share", d.sampled_share);
+    add_numbers(file, "sampled_share", d.sampled_weight);
     add_layer(file, "sampled_variance", std::move(d.sampled_variance));
     add_layer(file, "value_covariance", std::move(d.value_covariance));
     add_numbers(file, "unexplained_variance", d.unexplained_variance);
 }
 
-void add_parts(ExrFile& file, std::vector<BasisComponent>&& parts) {
-    for (std::size_t l = 0; l < parts.size(); ++l) {
-        BasisComponent& part = parts[l];
+void add_components(ExrFile& file, std::vector<BasisComponent>&& components) {
+    for (std::size_t l = 0; l < components.size(); ++l) {
+        BasisComponent& component = components[l];
         const auto named = [l](const char* name) { return part_layer(l, name); };
-        add_numbers(file, named("projection"), part.projection);
-        add_layer(file, named("primal"), std::move(part.primal));
-        add_layer(file, named("dx"), std::move(part.dx));
-        add_layer(file, named("dy"), std::move(part.dy));
-        add_numbers(file, named("primal_variance"), part.primal_variance);
-        add_numbers(file, named("dx_variance"), part.dx_variance);
-        add_numbers(file, named("dy_variance"), part.dy_variance);
+        add_numbers(file, named("projection"), component.projection);
+        add_layer(file, named("primal"), std::move(component.primal));
+        add_layer(file, named("dx"), std::move(component.dx));
+        add_layer(file, named("dy"), std::move(component.dy));
+        add_numbers(file, named("primal_variance"), component.primal_variance);
+        add_numbers(file, named("dx_variance"), component.dx_variance);
+        add_numbers(file, named("dy_variance"), component.dy_variance);
     }
 }
 
@@ -115,7 +115,7 @@ void add_buffers(ExrFile& file, GradientImages&& images) {
     add_features(file, std::move(images.features));
     add_brightest(file, std::move(images.brightest));
     add_demodulation(file, std::move(images.demodulation));
-    add_parts(file, std::move(images.parts));
+    add_components(file, std::move(images.components));
 }
 
 /// Returns whether the images have the same pixels.
@@ -137,14 +137,14 @@ void check_picture_name(const std::filesystem::path& output, const Reconstructio
 std::uint64_t bytes_for_layers(glm::ivec2 size, const RenderSettings& settings, const ReconstructionLayers& wanted,
                                int threads) {
     const bool gradients = has_gradients(settings.method), demodulated = is_demodulated(settings);
-    const int parts = is_expanded(settings) ? part_count(settings.basis) : 0;
+    const int components = is_expanded(settings) ? component_count(settings.basis) : 0;
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const std::uint64_t images =
         pixels * (sizeof(Rgb) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
                   FeatureImages::bytes_a_pixel + (gradients ? 3 : 1) * sizeof(Rgb) +
                   (gradients ? 3 : 1) * sizeof(float) + (demodulated ? Demodulation::bytes_a_pixel : 0) +
-                  static_cast<std::size_t>(parts) * BasisComponent::bytes_a_pixel);
-    const ReconstructionSize picture{size.x, size.y, gradients, demodulated, parts, threads};
+                  static_cast<std::size_t>(components) * BasisComponent::bytes_a_pixel);
+    const ReconstructionSize picture{size.x, size.y, gradients, demodulated, components, threads};
     std::uint64_t done = 0, most = images;
     for (Norm norm : wanted.norms) {
         most = std::max(most, images + done + Reconstructor().bytes_for(picture, applied(norm, gradients)));
@@ -166,7 +166,7 @@ ExrFile reconstruct_layers(GradientImages&& images, const ReconstructionLayers& 
         // Open Image Denoise has threads of its own.
         const auto cpu_seconds = [&] { return norm == Norm::oidn ? process_cpu_seconds() : pool.cpu_seconds(); };
         const double cpu = cpu_seconds();
-        Reconstruction r = reconstruct_if_it_fits(solver, images, settings, parallel_for, pool.size());
+        Reconstruction r = reconstruct_checked(solver, images, settings, parallel_for, pool.size());
         stats.push_back({norm, r.seconds, cpu_seconds() - cpu, r.iterations, r.residual, r.redistributed});
         file.layers.push_back({file.layers.empty() ? "" : std::string(to_string(norm)), std::move(r.image)});
     }
@@ -199,7 +199,7 @@ ExrFile picture_layers(GradientImages&& images, const ReuseMaps& maps, const Rec
 ExrFile unreconstructed_layers(GradientImages&& images, bool is_exr) {
     ExrFile file;
     const bool has_buffers = is_exr && images.has_gradients();
-    if (!has_buffers || is_memory_free(sizeof(Rgb) * images.primal.size()))
+    if (!has_buffers || has_free_memory(sizeof(Rgb) * images.primal.size()))
         add_layer(file, "", raw_primal(images, has_buffers));
     if (has_buffers)
         add_buffers(file, std::move(images));

@@ -29,7 +29,7 @@ std::string shell_word(const std::string& text) {
 
 } // namespace
 
-std::string inspect_command(const SceneSource& source, const Render& render, const RefusedSample& sample) {
+std::string inspect_command(const SceneSource& source, const Render& render, const InvalidSample& sample) {
     if (std::max(render.size().x, render.size().y) > most_render_pixels_an_edge)
         return "";
     const RenderSettings& settings = render.settings();
@@ -51,11 +51,11 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
 }
 
 void warn_of_refused(const SceneSource& source, const Render& render) {
-    const auto first = render.counters().first_refused.list();
+    const auto first = render.counters().first_invalid.list();
     if (first.empty())
         return;
     const std::string command = inspect_command(source, render, first.front());
-    fmt::print(stderr, "warning: {}\n{}\n", refused_text(render.counters(), render.settings().seed),
+    fmt::print(stderr, "warning: {}\n{}\n", invalid_text(render.counters(), render.settings().seed),
                command.empty()
                    ? fmt::format("The viewer cannot open it: it supports at most {} pixels along each edge.",
                                  most_render_pixels_an_edge)
@@ -64,7 +64,7 @@ void warn_of_refused(const SceneSource& source, const Render& render) {
 
 nlohmann::json refused_json(const SceneSource& source, const Render& render) {
     nlohmann::json list = nlohmann::json::array();
-    for (const RefusedSample& sample : render.counters().first_refused.list()) {
+    for (const InvalidSample& sample : render.counters().first_invalid.list()) {
         list.push_back(
             {{"x", sample.x}, {"y", sample.y}, {"pass", sample.pass}, {"seed", render.settings().seed}});
         if (const std::string command = inspect_command(source, render, sample); !command.empty())

@@ -19,7 +19,7 @@ namespace tessera {
 
 /// Returns the command that opens a sample of the render in the viewer: the options that determine its value and
 /// are not defaults. Empty: the viewer does not support pictures of that size.
-std::string inspect_command(const SceneSource& source, const Render& render, const RefusedSample& sample);
+std::string inspect_command(const SceneSource& source, const Render& render, const InvalidSample& sample);
 
 /// Prints to stderr the number of invalid samples, the first one, and how to open it; nothing if there are none.
 void warn_of_refused(const SceneSource& source, const Render& render);

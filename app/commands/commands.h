@@ -35,22 +35,22 @@ struct SavedPicture;
 /// contact sheet.
 inline constexpr int view_needs_display = -1;
 /// Returned by run_view if a signal ended a script or a screenshot: the shell's exit code for Ctrl-C.
-inline constexpr int view_cut_short = 130;
+inline constexpr int view_interrupted = 130;
 
 /// Default samples per pixel, if neither samples nor time are given.
-inline constexpr int usual_spp = 16;
+inline constexpr int default_spp = 16;
 
 /// Options of `tessera view`.
 struct ViewOptions {
     SceneOrigin scene; ///< loaded in the background
     SceneOpener open;  ///< opens scenes that are dropped on the window
     std::vector<PaneSettings> panes = default_panes(2);
-    bool panes_as_remembered = true; ///< use the number of panes of the last session; if unknown, `panes`
-    std::optional<int> max_depth;    ///< empty: the scene's own
+    bool uses_stored_pane_count = true; ///< use the number of panes of the last session; if unknown, `panes`
+    std::optional<int> max_depth;       ///< empty: the scene's own
     SizeChoice render_size;
     int threads = 0;                       ///< of the renderer; 0: one per hardware thread
     std::optional<glm::ivec2> window_size; ///< empty: that of the last window, or 1440x810
-    int spp = 0; ///< samples per pixel at which the panes stop; 0: no limit (for a screenshot: usual_spp)
+    int spp = 0; ///< samples per pixel at which the panes stop; 0: no limit (for a screenshot: default_spp)
     std::optional<SampleChoice> sample; ///< opened in the path inspector of the last pane
     std::filesystem::path reference;    ///< EXR file for error measurement; empty: none
     std::filesystem::path jobs;       ///< output folder of a bench, sweep or stability run to follow; empty: none
@@ -78,7 +78,7 @@ struct RenderOptions {
     SceneSource scene;
     RenderSettings settings;
     std::optional<int> max_depth; ///< empty: the scene's own
-    std::optional<int> spp;       ///< passes; empty: limited by time, or usual_spp
+    std::optional<int> spp;       ///< passes; empty: limited by time, or default_spp
     std::optional<double> time;   ///< seconds of rendering, without loading
     ClockChoice clock = ClockChoice::wall;
     std::optional<glm::ivec2> size; ///< empty: the scene's own
@@ -99,7 +99,7 @@ struct ReferenceOptions {
     ReferenceRecipe recipe;
     std::optional<int> max_depth;   ///< empty: the scene's own
     std::optional<glm::ivec2> size; ///< empty: the scene's own
-    bool is_share = false;          ///< write a shard file, even if it is the only shard
+    bool is_shard = false;          ///< write a shard file, even if it is the only shard
     int threads = 0;                ///< 0: one per hardware thread
     std::filesystem::path output;
 };
@@ -109,7 +109,7 @@ struct ReferenceOptions {
 int run_reference(const ReferenceOptions& options);
 
 /// Command-line arguments of `tessera reference`.
-struct ReferenceWords {
+struct ReferenceArguments {
     std::string scene, camera, share;
     glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
@@ -118,10 +118,10 @@ struct ReferenceWords {
 };
 
 /// Adds the subcommand to `app`, which stores its arguments in `words`; `words` must outlive `app`.
-void add_reference(CLI::App& app, ReferenceWords& words);
+void add_reference(CLI::App& app, ReferenceArguments& words);
 
 /// Parses the arguments. Throws BadInput that names the option.
-ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words);
+ReferenceOptions parse_reference(const CLI::App& command, const ReferenceArguments& words);
 
 /// Options of `tessera merge`.
 struct MergeOptions {
@@ -133,7 +133,7 @@ struct MergeOptions {
 void add_merge(CLI::App& app, MergeOptions& options);
 
 /// Merges the shards of a reference, and prints its error. Returns an ExitCode. Throws BadInput, and as
-/// merge_shares does.
+/// merge_shards does.
 int run_merge(const MergeOptions& options);
 
 /// Options of `tessera reconstruct`.
@@ -151,7 +151,7 @@ struct ReconstructOptions {
 int run_reconstruct(const ReconstructOptions& options);
 
 /// Command-line arguments of `tessera reconstruct`.
-struct ReconstructWords {
+struct ReconstructArguments {
     std::vector<std::string> inputs;
     std::string primal, dx, dy, direct; ///< the inputs by name, instead of `inputs`
     std::string norms = "guided";
@@ -159,10 +159,10 @@ struct ReconstructWords {
 };
 
 /// Adds the subcommand to `app`, which stores its arguments in `words`; `words` must outlive `app`.
-void add_reconstruct(CLI::App& app, ReconstructWords& words);
+void add_reconstruct(CLI::App& app, ReconstructArguments& words);
 
 /// Parses the arguments. Throws BadInput that names the option.
-ReconstructOptions parse_reconstruct(const ReconstructWords& words);
+ReconstructOptions parse_reconstruct(const ReconstructArguments& words);
 
 struct CompareOptions {
     std::filesystem::path image;

@@ -26,7 +26,7 @@ struct ImageComparison {
     std::optional<FloorFreeError> floor_free;
     std::optional<std::array<double, 4>> energy_change;
     std::optional<TileSpectrum> tiles;
-    double share_without_light = 0; ///< fraction of the pixels with a luminance of 0 or less
+    double fraction_without_light = 0; ///< fraction of the pixels with a luminance of 0 or less
 };
 
 RgbImage read_layer(const std::filesystem::path& path, const std::string& name) {
@@ -55,7 +55,7 @@ References read_references(const CompareOptions& options) {
     return {read_plain(options.reference, options.layer), {}};
 }
 
-double share_without_light(const RgbImage& image) {
+double fraction_without_light(const RgbImage& image) {
     const auto dark = std::count_if(image.begin(), image.end(), [](Rgb c) { return luminance(c) <= 0; });
     return static_cast<double>(dark) / static_cast<double>(image.size());
 }
@@ -94,7 +94,7 @@ ImageComparison compare(const CompareOptions& options) {
                 ": a tile spectrum needs tiles of at least 2 pixels, and 4 tiles along each edge");
         result.tiles = measure_tile_spectrum(image, references.first, options.tile);
     }
-    result.share_without_light = share_without_light(image);
+    result.fraction_without_light = fraction_without_light(image);
     return result;
 }
 
@@ -129,7 +129,7 @@ void print_text(const ImageComparison& c) {
             c.tiles->edge_ratio);
     }
     std::printf("without light        %.3g %%   of the pixels: luminance 0 or less\n",
-                100 * c.share_without_light);
+                100 * c.fraction_without_light);
     if (c.metrics.bad_pixels > 0)
         std::printf("pixels not finite    %zu\n", c.metrics.bad_pixels);
 }
@@ -150,7 +150,7 @@ void print_json(const CompareOptions& options, const ImageComparison& c) {
     out["psnr"] = c.psnr;
     out["flip"] = c.flip;
     out["bad_pixels"] = c.metrics.bad_pixels;
-    out["share_without_light"] = c.share_without_light;
+    out["share_without_light"] = c.fraction_without_light;
     if (c.floor_free) {
         out["relmse_floor_free"] = c.floor_free->relative_mse;
         out["relmse_floor_free_standard_error"] = c.floor_free->standard_error;

@@ -36,7 +36,7 @@ void write_bench(Experiment& experiment) {
 int run_bench(const ExperimentOptions& options) {
     Experiment experiment(options);
     const int code = run_jobs({&experiment}, options, [&] { write_bench(experiment); });
-    if (options.sharing.task != Sharing::Task::list)
+    if (options.sharing.task != WorkDivision::Task::list)
         fmt::print("{}\n", (options.output / "bench.html").string());
     return code;
 }
@@ -44,7 +44,7 @@ int run_bench(const ExperimentOptions& options) {
 int run_sweep(const ExperimentOptions& options) {
     Experiment experiment(options);
     const int code = run_jobs({&experiment}, options, [&] { write_sweep(experiment, experiment.results()); });
-    if (options.sharing.task != Sharing::Task::list)
+    if (options.sharing.task != WorkDivision::Task::list)
         fmt::print(stderr, "{}: sweep.csv, sweep.json, sweep.md and a chart of each scene\n",
                    options.output.string());
     return code;
@@ -121,7 +121,7 @@ int run_stability(ExperimentOptions suite) {
         for (const StabilityCase& c : cases)
             write_sheet(suite, c);
     });
-    if (suite.sharing.task != Sharing::Task::list)
+    if (suite.sharing.task != WorkDivision::Task::list)
         fmt::print("{}\n", (suite.output / "stability.html").string());
     return code;
 }

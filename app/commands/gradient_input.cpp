@@ -201,7 +201,7 @@ Demodulation read_demodulation(const LayerReader& reader) {
                    reader.image("sampled_albedo"),       reader.variances("albedo_variance", largest),
                    reader.variances("sampled_share", 0), reader.image("sampled_variance"),
                    reader.image("value_covariance"),     reader.variances("unexplained_variance", largest)};
-    for (float& share : d.sampled_share)
+    for (float& share : d.sampled_weight)
         share = std::min(share, 1.0f);
     return d;
 }
@@ -230,20 +230,20 @@ void read_features(const LayerReader& reader, GradientImages& images) {
 }
 
 /// Reads the components of the coefficient that the file has. Their projections may be negative.
-std::vector<BasisComponent> read_parts(const LayerReader& reader, bool has_variances) {
-    std::vector<BasisComponent> parts;
+std::vector<BasisComponent> read_components(const LayerReader& reader, bool has_variances) {
+    std::vector<BasisComponent> components;
     for (std::size_t l = 0; find_layer(reader.file, part_layer(l, "primal")); ++l) {
         const auto named = [l](const char* name) { return part_layer(l, name); };
-        BasisComponent& part =
-            parts.emplace_back(reader.numbers(named("projection")), reader.image(named("primal")),
-                               reader.image(named("dx"), 1, 0), reader.image(named("dy"), 0, 1));
+        BasisComponent& component =
+            components.emplace_back(reader.numbers(named("projection")), reader.image(named("primal")),
+                                    reader.image(named("dx"), 1, 0), reader.image(named("dy"), 0, 1));
         if (!has_variances)
             continue;
-        part.primal_variance = reader.variances(named("primal_variance"), 0);
-        part.dx_variance = reader.variances(named("dx_variance"), largest, 1, 0);
-        part.dy_variance = reader.variances(named("dy_variance"), largest, 0, 1);
+        component.primal_variance = reader.variances(named("primal_variance"), 0);
+        component.dx_variance = reader.variances(named("dx_variance"), largest, 1, 0);
+        component.dy_variance = reader.variances(named("dy_variance"), largest, 0, 1);
     }
-    return parts;
+    return components;
 }
 
 } // namespace
@@ -286,7 +286,7 @@ GradientInput read_gradients(const std::vector<std::filesystem::path>& files, bo
     const LayerReader reader{layers, files.front(), buffers[0], repair, input.repaired};
     if (has_coefficient) {
         input.images.demodulation = read_demodulation(reader);
-        input.images.parts = read_parts(reader, has_variances);
+        input.images.components = read_components(reader, has_variances);
     }
     input.images.brightest = read_brightest(
         reader, has_coefficient, number_of(input.attributes, samples_attribute, most_spp, files.front()));

@@ -36,7 +36,7 @@ std::string kind_of(const Material& m) {
         std::string operator()(const DiffuseTransmitterMaterial&) const { return "difftrans"; }
         std::string operator()(const MediumLayerMaterial&) const { return "hk"; }
         std::string operator()(const MixtureMaterial& m) const {
-            return m.second_share ? "blendbsdf" : "mixturebsdf";
+            return m.blend_weight ? "blendbsdf" : "mixturebsdf";
         }
         std::string operator()(const CoatedMaterial& c) const { return "coating on " + kind_of(*c.base); }
     };

@@ -17,7 +17,7 @@ namespace tessera {
 
 namespace {
 
-void add_inputs(CLI::App& command, ReconstructWords& words) {
+void add_inputs(CLI::App& command, ReconstructArguments& words) {
     CLI::Option* inputs =
         command
             .add_option("inputs", words.inputs,
@@ -38,7 +38,7 @@ void add_inputs(CLI::App& command, ReconstructWords& words) {
 
 } // namespace
 
-void add_reconstruct(CLI::App& app, ReconstructWords& words) {
+void add_reconstruct(CLI::App& app, ReconstructArguments& words) {
     CLI::App& command =
         *app.add_subcommand("reconstruct", "reconstruct a picture from saved buffers of any program");
     command.footer(
@@ -61,7 +61,7 @@ void add_reconstruct(CLI::App& app, ReconstructWords& words) {
     command.add_flag("--repair", options.repair, "set pixels that are not finite to 0, and print how many");
 }
 
-ReconstructOptions parse_reconstruct(const ReconstructWords& words) {
+ReconstructOptions parse_reconstruct(const ReconstructArguments& words) {
     ReconstructOptions options = words.options;
     options.inputs.assign(words.inputs.begin(), words.inputs.end());
     if (!words.primal.empty())

@@ -15,7 +15,7 @@
 
 namespace tessera {
 
-void add_reference(CLI::App& app, ReferenceWords& words) {
+void add_reference(CLI::App& app, ReferenceArguments& words) {
     CLI::App& command = *app.add_subcommand("reference", "render a reference, with an estimate of its own error");
     command.footer(
         "A reference consists of two independent renders of the scene with two seeds, the layers half1 and "
@@ -55,8 +55,8 @@ void add_reference(CLI::App& app, ReferenceWords& words) {
 
 namespace {
 
-PassShare parse_share(const std::string& text) {
-    PassShare share;
+PassShard parse_share(const std::string& text) {
+    PassShard share;
     int end = 0;
     if (std::sscanf(text.c_str(), "%9d/%9d%n", &share.number, &share.count, &end) != 2 ||
         end != static_cast<int>(text.size()) || share.number < 1 || share.number > share.count)
@@ -66,7 +66,7 @@ PassShare parse_share(const std::string& text) {
 
 } // namespace
 
-ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& words) {
+ReferenceOptions parse_reference(const CLI::App& command, const ReferenceArguments& words) {
     ReferenceOptions options = words.options;
     options.scene = {words.scene, parse_variables(words.definitions), words.camera, words.strict};
     if (command.count("--max-depth"))
@@ -74,7 +74,7 @@ ReferenceOptions parse_reference(const CLI::App& command, const ReferenceWords& 
     if (command.count("--size"))
         options.size = words.size;
     if (!words.share.empty()) {
-        options.is_share = true;
+        options.is_shard = true;
         options.recipe.share = parse_share(words.share);
     }
     return options;
@@ -86,11 +86,11 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
     const FloorFreeError error = error_of(reference);
     fmt::print("{}: by {}; relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(),
                to_string(origin_of(reference)), error.relative_mse, error.standard_error);
-    if (const double fraction = untrusted_share(reference.doubt); fraction > 0)
+    if (const double fraction = untrusted_fraction(reference.doubt); fraction > 0)
         fmt::print(
             "{:.2g} % of its pixels are unreliable: their error is above {:g} %, a single sample makes more "
             "than a quarter of them, or no sample found radiance (layer doubt)\n",
-            100 * fraction, 100 * most_doubt);
+            100 * fraction, 100 * untrusted_threshold);
 }
 
 } // namespace
@@ -98,7 +98,7 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
 int run_reference(const ReferenceOptions& options) {
     check(options.recipe.settings);
     check_available({reconstruction_of(options.recipe).norm});
-    const char* const extension = options.is_share ? ".share" : ".exr";
+    const char* const extension = options.is_shard ? ".share" : ".exr";
     if (extension_of(options.output) != extension)
         throw BadInput(fmt::format("{}: the name must end in {}", options.output.string(), extension));
     passes_of(options.recipe);
@@ -114,8 +114,8 @@ int run_reference(const ReferenceOptions& options) {
 
     const InterruptGuard guard;
     bool is_complete = false;
-    if (options.is_share) {
-        is_complete = render_share(options.output, options.scene, opened.scene, recipe, pool);
+    if (options.is_shard) {
+        is_complete = render_shard(options.output, options.scene, opened.scene, recipe, pool);
     } else if (const auto reference =
                    render_reference(options.output, options.scene, opened.scene, recipe, pool)) {
         is_complete = true;
@@ -147,7 +147,7 @@ int run_merge(const MergeOptions& options) {
         inputs.push_back({"a share", share});
     check_outputs({{"-o", options.output}}, inputs);
     check_writable(options.output);
-    print_error(options.output, merge_shares(options.shares, options.output));
+    print_error(options.output, merge_shards(options.shares, options.output));
     return exit_ok;
 }
 

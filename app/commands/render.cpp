@@ -38,7 +38,7 @@ Norm default_norm(const RenderSettings& s) {
 ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
     ResolvedRender wanted{options.settings, options.size.value_or(scene.size()), 0, options.layers};
     wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), most_edges));
-    wanted.spp = options.spp.value_or(options.time ? 0 : usual_spp);
+    wanted.spp = options.spp.value_or(options.time ? 0 : default_spp);
     if (wanted.layers.norms.empty())
         wanted.layers.norms = {default_norm(wanted.settings)};
     return wanted;
@@ -82,7 +82,7 @@ bool warn_of_bad_pixels(const ExrFile& file) {
 void ask_for_picture(const ResolvedRender& wanted, int threads) {
     const RenderSettings& settings = wanted.settings;
     check_image_size(wanted.size.x, wanted.size.y);
-    ask_for_memory(std::max(Render::bytes(wanted.size, settings, threads),
+    require_memory(std::max(Render::bytes(wanted.size, settings, threads),
                             bytes_for_layers(wanted.size, settings, wanted.layers, threads)),
                    fmt::format("{}x{} pixels of {}", wanted.size.x, wanted.size.y, short_name(settings.method)));
 }

@@ -139,9 +139,9 @@ ViewerOptions viewer_options(const ViewOptions& options, Surface& surface) {
     result.max_depth = options.max_depth;
     result.size = options.render_size;
     result.threads = options.threads;
-    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : usual_spp;
+    result.spp_limit = options.screenshot.empty() || options.spp > 0 ? options.spp : default_spp;
     result.sample = options.sample;
-    result.panes_as_remembered = options.panes_as_remembered;
+    result.uses_stored_pane_count = options.uses_stored_pane_count;
     if (options.log_actions)
         result.log = print_line;
     result.log_controls = options.log_actions;
@@ -184,9 +184,9 @@ int play(std::vector<ScriptStep> steps, const ViewOptions& options, Surface& sur
     return duties.exit_code();
 }
 
-/// Returns the exit code: view_cut_short if a signal ended a script or a screenshot.
+/// Returns the exit code: view_interrupted if a signal ended a script or a screenshot.
 int exit_code(const ViewOptions& options, int code) {
-    return interrupted() && !is_interactive(options) ? view_cut_short : code;
+    return interrupted() && !is_interactive(options) ? view_interrupted : code;
 }
 
 } // namespace

@@ -144,7 +144,7 @@ void Claim::finish(const std::string& text) {
     if (error && !fs::exists(file_)) // if it exists, a process that took over has finished first
         fail(file_, error.value());
     is_finished_ = true;
-    write_through_folder(folder);
+    sync_folder(folder);
     for (int older = 1; older < generation_; ++older)
         fs::remove(claim_path(file_, older), error);
 }

@@ -21,7 +21,7 @@ class App;
 namespace tessera {
 
 /// Options of a command for dividing an experiment among processes.
-struct Sharing {
+struct WorkDivision {
     enum class Task { work, list, one_job, report };
     Task task = Task::work;
     int job = 0;                          ///< number of the job for Task::one_job, from 1
@@ -48,7 +48,7 @@ struct ExperimentOptions {
     bool takes_any_build = false; ///< accepts finished jobs from other builds of the program
     bool measures_artefacts = false;
     bool keeps_images = false; ///< keeps the final pictures of the first seed: see Experiment::image_file
-    Sharing sharing;
+    WorkDivision sharing;
 };
 
 /// Returns the key of a run in a job's file, except for the checksums of scene and reference.
@@ -141,7 +141,7 @@ private:
 };
 
 /// Command-line arguments of `tessera sweep`, `bench` and `stability`, before parse_experiment() reads them.
-struct ExperimentWords {
+struct ExperimentArguments {
     std::vector<std::string> scenes, variations;
     std::string methods, norms, clock = "cpu";
     int spp = 0;
@@ -151,11 +151,11 @@ struct ExperimentWords {
 };
 
 // Each of these adds its subcommand to `app`, which stores its arguments in `words`; `words` must outlive `app`.
-void add_sweep(CLI::App& app, ExperimentWords& words);
-void add_bench(CLI::App& app, ExperimentWords& words);
-void add_stability(CLI::App& app, ExperimentWords& words);
+void add_sweep(CLI::App& app, ExperimentArguments& words);
+void add_bench(CLI::App& app, ExperimentArguments& words);
+void add_stability(CLI::App& app, ExperimentArguments& words);
 
 /// Parses the arguments of one of these commands. Throws BadInput that names the option.
-ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words);
+ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentArguments& words);
 
 } // namespace tessera

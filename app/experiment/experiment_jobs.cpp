@@ -228,7 +228,7 @@ public:
     /// Writes the final report, unless another process has written it and `always` is not set.
     void write_last(bool always) {
         const fs::path written = folder_ / jobs_.mark();
-        for (Patience patience(silence_); always || !fs::exists(written);) {
+        for (Backoff patience(silence_); always || !fs::exists(written);) {
             const std::unique_ptr<Claim> claim = claims_.take(folder_ / "report");
             if (!claim) {
                 if (!patience.wait())
@@ -256,11 +256,11 @@ private:
 };
 
 /// Performs the task on the jobs. Returns false if Ctrl-C interrupted it.
-bool work(ExperimentJobs& jobs, const Sharing& sharing, Report& report) {
-    if (sharing.task == Sharing::Task::report)
+bool work(ExperimentJobs& jobs, const WorkDivision& sharing, Report& report) {
+    if (sharing.task == WorkDivision::Task::report)
         return true;
     JobWorker worker(jobs, sharing.silence);
-    if (sharing.task == Sharing::Task::work)
+    if (sharing.task == WorkDivision::Task::work)
         return worker.run([&] { report.write_now_and_then(); });
     const std::vector<std::size_t> items = jobs.items_for(sharing.job);
     return std::all_of(items.begin(), items.end(), [&](std::size_t item) { return worker.run_one(item); });
@@ -272,7 +272,7 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
              const std::function<void()>& write_report) {
     const InterruptGuard guard;
     ExperimentJobs jobs(experiments);
-    if (options.sharing.task == Sharing::Task::list) {
+    if (options.sharing.task == WorkDivision::Task::list) {
         fmt::print("{}", jobs.list());
         return exit_ok;
     }
@@ -282,11 +282,11 @@ int run_jobs(const std::vector<Experiment*>& experiments, const ExperimentOption
     const bool was_done = jobs.left() == 0;
     if (!was_done)
         report.forget();
-    jobs.keep_marks_in(options.output / "jobs"); // from here on the mark is valid
+    jobs.set_completion_folder(options.output / "jobs"); // from here on the mark is valid
     const bool has_ended = work(jobs, options.sharing, report);
     report.write_plan(); // references may have been finished since
     const std::size_t left = jobs.left();
-    const bool is_of_one = options.sharing.task == Sharing::Task::one_job;
+    const bool is_of_one = options.sharing.task == WorkDivision::Task::one_job;
     if (left == 0)
         report.write_last(was_done);
     else if (!is_of_one)

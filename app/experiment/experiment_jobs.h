@@ -38,7 +38,7 @@ public:
     std::size_t left();
     /// Sets the folder in which a file of the name mark() states that the final report is written. The file must
     /// not exist while a job is unfinished. Default: no folder, so are_all_done() is false.
-    void keep_marks_in(std::filesystem::path folder) { marks_ = std::move(folder); }
+    void set_completion_folder(std::filesystem::path folder) { marks_ = std::move(folder); }
     std::size_t job_count() const { return job_count_; }
     /// Returns a line for each job: its number, its state (done, open, claimed by a worker), an estimate of its
     /// time, and its contents.

@@ -9,7 +9,7 @@ namespace tessera {
 
 namespace {
 
-void add_effort(CLI::App& command, ExperimentWords& words) {
+void add_effort(CLI::App& command, ExperimentArguments& words) {
     CLI::Option* spp = add_setting(command, spp_setting(words.spp))->default_str("");
     limit_to_seconds(
         command.add_option("--time", words.time,
@@ -30,7 +30,7 @@ void add_references(CLI::App& command, ExperimentOptions& options) {
     add_setting(command, method)->description("method of references that are missing");
 }
 
-void add_quick(CLI::App& command, ExperimentWords& words) {
+void add_quick(CLI::App& command, ExperimentArguments& words) {
     command.add_flag(
         "--quick", words.is_quick,
         "a preview in minutes; unless given: 5 CPU seconds, 4 halvings, 2 seeds, 320x180 pixels, the weighted "
@@ -54,8 +54,8 @@ void take_quick(const CLI::App& command, ExperimentOptions& options) {
         options.recipe.spp = 512;
 }
 
-void add_sharing(CLI::App& command, ExperimentWords& words) {
-    Sharing& sharing = words.options.sharing;
+void add_sharing(CLI::App& command, ExperimentArguments& words) {
+    WorkDivision& sharing = words.options.sharing;
     CLI::Option* list =
         command.add_flag("--list", words.lists, "print the jobs: number, state, estimated CPU seconds, contents");
     CLI::Option* job = command.add_option("--job", sharing.job, "run only the job of this number in the list");
@@ -73,7 +73,7 @@ void add_sharing(CLI::App& command, ExperimentWords& words) {
         ->capture_default_str();
 }
 
-void add_experiment(CLI::App& command, ExperimentWords& words) {
+void add_experiment(CLI::App& command, ExperimentArguments& words) {
     ExperimentOptions& options = words.options;
     forbid_empty(command.add_option("scenes", words.scenes, "Mitsuba scenes, XML"))->required()->take_all();
     add_picture_options(command, {options.settings.size, options.settings.render, options.settings.reconstruction,
@@ -112,7 +112,7 @@ constexpr const char* common_footer =
 
 } // namespace
 
-void add_sweep(CLI::App& app, ExperimentWords& words) {
+void add_sweep(CLI::App& app, ExperimentArguments& words) {
     words.methods = "gpr";
     words.norms = "weighted";
     CLI::App& command = *app.add_subcommand(
@@ -123,7 +123,7 @@ void add_sweep(CLI::App& app, ExperimentWords& words) {
     add_experiment(command, words);
 }
 
-void add_bench(CLI::App& app, ExperimentWords& words) {
+void add_bench(CLI::App& app, ExperimentArguments& words) {
     words.methods = "pt,pr,gpt,gpr";
     words.norms = "l2,l1,mixed,weighted,guided";
     words.options.effort = {60, Effort::Unit::cpu_seconds};
@@ -144,7 +144,7 @@ void add_bench(CLI::App& app, ExperimentWords& words) {
         ->capture_default_str();
 }
 
-void add_stability(CLI::App& app, ExperimentWords& words) {
+void add_stability(CLI::App& app, ExperimentArguments& words) {
     ExperimentOptions& options = words.options;
     words.methods = "pt,pr,gpt,gpr";
     words.norms = "none,l2,l1,mixed,weighted,guided";
@@ -169,7 +169,7 @@ void add_stability(CLI::App& app, ExperimentWords& words) {
         command.remove_option(command.get_option(other));
 }
 
-ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWords& words) {
+ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentArguments& words) {
     ExperimentOptions options = words.options;
     options.command = command.get_name();
     options.scenes.assign(words.scenes.begin(), words.scenes.end());
@@ -188,7 +188,7 @@ ExperimentOptions parse_experiment(const CLI::App& command, const ExperimentWord
                           words.clock == "cpu" ? Effort::Unit::cpu_seconds : Effort::Unit::wall_seconds};
     if (words.is_quick)
         take_quick(command, options);
-    using Task = Sharing::Task;
+    using Task = WorkDivision::Task;
     options.sharing.task = words.lists                  ? Task::list
                            : words.only_reports         ? Task::report
                            : command.count("--job") > 0 ? Task::one_job

@@ -37,7 +37,7 @@ void remove_leftovers(const fs::path& folder, const Listing& listing) {
 
 } // namespace
 
-bool Patience::wait() {
+bool Backoff::wait() {
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
     seconds_ = std::min({1.5 * seconds_, silence_ / 10, 1.0});
     return !interrupted();
@@ -139,7 +139,7 @@ std::unique_ptr<Claim> JobWorker::find_silent() {
 }
 
 bool JobWorker::run(const std::function<void()>& after) {
-    Patience patience(silence_);
+    Backoff patience(silence_);
     for (scan_folders(); is_left();) {
         if (interrupted())
             return false;
@@ -165,7 +165,7 @@ bool JobWorker::run(const std::function<void()>& after) {
 }
 
 bool JobWorker::run_one(std::size_t job) {
-    for (Patience patience(silence_); !jobs_.is_done(job);) {
+    for (Backoff patience(silence_); !jobs_.is_done(job);) {
         if (const std::unique_ptr<Claim> claim = claims_.take(jobs_.file_of(job)))
             return jobs_.run(job, *claim);
         if (!patience.wait())

@@ -67,9 +67,9 @@ private:
 };
 
 /// Waits for a growing interval, at most a tenth of the silence and at most a second. Returns false after Ctrl-C.
-class Patience {
+class Backoff {
 public:
-    explicit Patience(double silence) : silence_(silence) {}
+    explicit Backoff(double silence) : silence_(silence) {}
     bool wait();
     void begin_anew() { seconds_ = 0.01; }
 

@@ -4,7 +4,7 @@
 #include "app/cli/terminal.h"
 #include "recon/metrics/halo.h"
 #include "recon/metrics/seen_error.h"
-#include "render/run/fitting_reconstruction.h"
+#include "render/run/checked_reconstruction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ void MeasuredRun::measure(int halvings) {
         const double cpu = process_cpu_seconds();
         Reconstructor reconstructor;
         Reconstruction r =
-            reconstruct_if_it_fits(reconstructor, buffers, reconstructions_[i], parallel_for, pool_.size());
+            reconstruct_checked(reconstructor, buffers, reconstructions_[i], parallel_for, pool_.size());
         const double reconstruction_cpu = process_cpu_seconds() - cpu;
         measurements_[i].push_back({halvings,
                                     render_.settings().seed,

@@ -48,12 +48,12 @@ std::optional<ReferenceImage> render_reference(const std::filesystem::path& outp
     return render.finish();
 }
 
-bool render_share(const std::filesystem::path& output, const SceneSource& source,
+bool render_shard(const std::filesystem::path& output, const SceneSource& source,
                   const std::shared_ptr<const Scene>& scene, const ReferenceRecipe& recipe, ThreadPool& pool) {
     ReferenceRender render(output, {source, scene, scene->camera()}, recipe, pool);
     if (!complete(render, output, source))
         return false;
-    render.finish_share();
+    render.finish_shard();
     return true;
 }
 

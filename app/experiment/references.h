@@ -15,9 +15,9 @@ std::optional<ReferenceImage> render_reference(const std::filesystem::path& outp
                                                const std::shared_ptr<const Scene>& scene,
                                                const ReferenceRecipe& recipe, ThreadPool& pool);
 
-/// Renders the recipe's shard of a reference and writes the file that merge_shares reads. Returns false if Ctrl-C
+/// Renders the recipe's shard of a reference and writes the file that merge_shards reads. Returns false if Ctrl-C
 /// interrupted it.
-bool render_share(const std::filesystem::path& output, const SceneSource& source,
+bool render_shard(const std::filesystem::path& output, const SceneSource& source,
                   const std::shared_ptr<const Scene>& scene, const ReferenceRecipe& recipe, ThreadPool& pool);
 
 /// A reference in a folder of references, of one scene, size and depth.

@@ -116,14 +116,14 @@ const ResultColumn columns[] = {
     {"wall_seconds", wall_seconds_of},
     {"megasamples_per_wall_second", speed_of},
     {"relmse", [](const Result& r) { return mean(r, [](const Measurement& run) { return run.relative_mse; }); }},
-    {"relmse_floor_free", [](const Result& r) { return is_certain(r) ? error_of(r) : none; }},
+    {"relmse_floor_free", [](const Result& r) { return is_significant(r) ? error_of(r) : none; }},
     {"relmse_floor_free_uncertainty", error_uncertainty},
-    {"below_uncertainty", [](const Result& r) { return is_certain(r) ? 0.0 : 1.0; }},
+    {"below_uncertainty", [](const Result& r) { return is_significant(r) ? 0.0 : 1.0; }},
     {"relmse_floor_free_deviation", error_deviation},
     {"efficiency", efficiency_of},
-    {"reused_share", reused_share},
-    {"skipped_share", skipped_share},
-    {"dark_share", dark_share},
+    {"reused_share", reused_fraction},
+    {"skipped_share", skipped_fraction},
+    {"dark_share", dark_fraction},
     {"shift_attempts", [](const Result& r) { return static_cast<double>(total(r).shift_attempts()) / count(r); }},
     {"shift_success_share",
      [](const Result& r) {
@@ -171,7 +171,7 @@ double error_uncertainty(const Result& r) {
     const double of_seeds = error_deviation(r) / std::sqrt(count(r));
     return of_seeds > of_pieces ? of_seeds : of_pieces; // false if of_seeds is NaN
 }
-bool is_certain(const Result& r) {
+bool is_significant(const Result& r) {
     return error_of(r) > error_uncertainty(r);
 }
 double spp_of(const Result& r) {
@@ -193,16 +193,16 @@ double cpu_seconds_deviation(const Result& r) {
 
 double efficiency_of(const Result& r) {
     const double cost = error_of(r) * cpu_seconds_of(r);
-    return is_certain(r) && cost > 0 ? 1 / cost : none;
+    return is_significant(r) && cost > 0 ? 1 / cost : none;
 }
 
-double reused_share(const Result& r) {
+double reused_fraction(const Result& r) {
     return fraction(total(r).reused_paths, total(r).set_paths());
 }
-double skipped_share(const Result& r) {
+double skipped_fraction(const Result& r) {
     return fraction(total(r).skipped_paths, total(r).set_paths());
 }
-double dark_share(const Result& r) {
+double dark_fraction(const Result& r) {
     return fraction(total(r).dark_paths, total(r).set_paths());
 }
 

@@ -104,7 +104,7 @@ double error_deviation(const Result& result);
 /// references' noise, which is the same for all seeds.
 double error_uncertainty(const Result& result);
 /// Returns whether the error is larger than its uncertainty.
-bool is_certain(const Result& result);
+bool is_significant(const Result& result);
 double spp_of(const Result& result);
 double cpu_seconds_of(const Result& result);
 double cpu_seconds_deviation(const Result& result);
@@ -115,8 +115,8 @@ double efficiency_of(const Result& result);
 double speed_of(const Result& result);
 
 // Fractions of the base paths of all sampling sets, in [0, 1].
-double reused_share(const Result& result);
-double skipped_share(const Result& result); ///< skipped by Russian roulette on reuse
-double dark_share(const Result& result);    ///< with no light to reuse
+double reused_fraction(const Result& result);
+double skipped_fraction(const Result& result); ///< skipped by Russian roulette on reuse
+double dark_fraction(const Result& result);    ///< with no light to reuse
 
 } // namespace tessera

@@ -133,7 +133,7 @@ std::vector<SceneCurves> curves_by_scene(const std::vector<Result>& results) {
 double slope_of(const Curve& curve) {
     std::vector<glm::dvec2> points;
     for (const Result& result : curve)
-        if (is_certain(result))
+        if (is_significant(result))
             points.emplace_back(cpu_seconds_of(result), error_of(result));
     return log_log_slope(points).value;
 }
@@ -182,7 +182,7 @@ void make_monotone(std::vector<LogPoint>& points) {
 std::vector<LogPoint> log_points_of(const Curve& curve) {
     std::vector<LogPoint> points;
     for (const Result& result : curve)
-        if (!result.runs.empty() && is_certain(result))
+        if (!result.runs.empty() && is_significant(result))
             points.push_back({std::log(cpu_seconds_of(result)), std::log(error_of(result))});
     make_monotone(points);
     return points;

@@ -28,12 +28,12 @@ struct Findings {
     double spike = 0;           ///< 99.99th percentile of the pixels' relative errors over all runs
     double worst = 0;           ///< largest relative error of a pixel in any run
     glm::ivec2 worst_pixel{0};
-    double worst_share = 0; ///< fraction of the total squared error that is in the worst_count() worst pixels
-    double tone_mapped = 0; ///< mean of Artefacts::tone_mapped
-    double tenfold = 0;     ///< mean of Artefacts::tenfold
-    double halo_energy = 0; ///< mean of Artefacts::halo_energy over the runs with a firefly; NaN: none has one
-    double halo_peak = 0;   ///< mean of Artefacts::halo_peak over the same runs; NaN: none
-    double tile_edges = 0;  ///< mean of TileSpectrum::edges; NaN for methods without tiles
+    double worst_fraction = 0; ///< fraction of the total squared error that is in the worst_count() worst pixels
+    double tone_mapped = 0;    ///< mean of Artefacts::tone_mapped
+    double tenfold = 0;        ///< mean of Artefacts::tenfold
+    double halo_energy = 0;    ///< mean of Artefacts::halo_energy over the runs with a firefly; NaN: none has one
+    double halo_peak = 0;      ///< mean of Artefacts::halo_peak over the same runs; NaN: none
+    double tile_edges = 0;     ///< mean of TileSpectrum::edges; NaN for methods without tiles
     double tile_edges_error = 0;
     double error = 0;       ///< mean relMSE, of pictures in units of the reference's mean luminance
     double error_error = 0; ///< standard error of `error`, including the noise of the references

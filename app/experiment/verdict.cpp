@@ -102,7 +102,7 @@ void find_outliers(const Result& result, Findings& f) {
     const double pixels = static_cast<double>(size.x) * size.y * static_cast<double>(result.runs.size());
     const auto rank = static_cast<std::size_t>(1e-4 * pixels);
     f.spike = std::sqrt(worst[std::min(rank, worst.size() - 1)]);
-    f.worst_share = f.error > 0 ? squared_sum / (f.error * pixels) : 0;
+    f.worst_fraction = f.error > 0 ? squared_sum / (f.error * pixels) : 0;
 }
 
 double cost_of_sample(const Result& result) {
@@ -176,8 +176,8 @@ std::string cause_of_worse(const Findings& f) {
                     "{:.2g} times as much",
                     f.factor, f.factor / f.cost, f.cost);
     text += shift_text(f.counters);
-    if (f.worst_share > 0.5)
-        text += fmt::format("; {:.0f} % of the squared error is in the worst pixels", 100 * f.worst_share);
+    if (f.worst_fraction > 0.5)
+        text += fmt::format("; {:.0f} % of the squared error is in the worst pixels", 100 * f.worst_fraction);
     return text;
 }
 

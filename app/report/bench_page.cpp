@@ -19,8 +19,8 @@ std::string number(double value) {
 
 /// An error below its uncertainty is shown as an upper bound.
 std::string error_text(const Result& r) {
-    return is_certain(r) ? fmt::format("{:.3g} ± {:.1g}", error_of(r), error_uncertainty(r))
-                         : fmt::format("&lt; {:.2g}", error_uncertainty(r));
+    return is_significant(r) ? fmt::format("{:.3g} ± {:.1g}", error_of(r), error_uncertainty(r))
+                             : fmt::format("&lt; {:.2g}", error_uncertainty(r));
 }
 
 std::string speed_up_cell(const SceneCurves& scene, Method slower) {
@@ -70,7 +70,7 @@ std::string reference_text(const Experiment& experiment, const SceneCurves& scen
         results.push_back(last_of(curve));
     const Result& first = results.front();
     return fmt::format("<p class=\"note\">{}. {}</p>\n", escaped(first.file.string()),
-                       escaped(reference_words(experiment, first.scene, results)));
+                       escaped(describe_references(experiment, first.scene, results)));
 }
 
 std::string scene_section(const Experiment& experiment, const SceneCurves& scene) {
@@ -113,7 +113,7 @@ std::string settings_section(const Experiment& experiment) {
 } // namespace
 
 std::string bench_page(const Experiment& experiment, const std::vector<SceneCurves>& scenes) {
-    std::string html = not_complete();
+    std::string html = interruption_note();
     html += "<p class=\"note\">relMSE is the mean of (I − r₁)(I − r₂) / (r² + 0.001) over the pixels, where r₁ "
             "and r₂ are the two independent halves of a reference and r is their mean: their noise does not enter "
             "the expectation. The number after ± is its standard error; a smaller error is given as &lt; and "

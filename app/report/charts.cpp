@@ -14,7 +14,7 @@ namespace tessera {
 namespace {
 
 /// Returns the look of a line: dashes show the norm, markers the values of the variations from index `first` on.
-LineLook look_of(const ExperimentOptions& options, const Result& result, std::size_t first) {
+LineStyle look_of(const ExperimentOptions& options, const Result& result, std::size_t first) {
     const PictureSettings& s = result.setup.settings;
     std::ptrdiff_t marker = 0;
     for (std::size_t i = first; i < options.variations.size(); ++i) {
@@ -51,7 +51,7 @@ ChartPlot error_plot(const ExperimentOptions& options, const SceneCurves& scene,
                          {},
                          {}};
     ChartPlot plot = with_curves(axes, options, scene, [x](const Result& r) {
-        return ChartPoint{x(r), is_certain(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN(),
+        return ChartPoint{x(r), is_significant(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN(),
                           r.runs.size() > 1 ? error_deviation(r) : error_uncertainty(r)};
     });
     for (std::size_t i = 0; i < scene.curves.size(); ++i)
@@ -216,7 +216,7 @@ ChartPlot plot_of(const ExperimentOptions& options, const std::vector<Result>& r
 Chart sweep_chart(const ExperimentOptions& options, const std::vector<Result>& results) {
     const char* const bars = options.seeds > 1 ? "standard deviation over seeds" : "uncertainty";
     const auto error = [&](double x, const Result& r) {
-        const double certain = is_certain(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN();
+        const double certain = is_significant(r) ? error_of(r) : std::numeric_limits<double>::quiet_NaN();
         return ChartPoint{x, certain, options.seeds > 1 ? error_deviation(r) : error_uncertainty(r)};
     };
     const auto efficiency = [](double x, const Result& r) { return ChartPoint{x, efficiency_of(r), 0}; };

@@ -115,7 +115,7 @@ RgbImage crop(const RgbImage& image, PixelRect rect) {
     return part;
 }
 
-float usual_exposure(const RgbImage& image) {
+float auto_exposure(const RgbImage& image) {
     std::vector<float> values;
     for (Rgb c : image)
         values.push_back(std::isfinite(luminance(c)) ? luminance(c) : 0.0f);
@@ -220,7 +220,7 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
         images.push_back(&picture.image);
     const int edge = std::clamp(std::min(truth.width(), truth.height()) / 3, 16, 160);
     const std::vector<PixelRect> rects = choose_crops(truth, images, edge, 2);
-    const float exposure = usual_exposure(truth);
+    const float exposure = auto_exposure(truth);
     std::string html =
         fmt::format("<h3>At equal time</h3>\n<p class=\"note\">The two squares with the largest total error of "
                     "the pictures below, each at its own exposure. Exposure of whole pictures: {:+.1f} stops, "
@@ -230,7 +230,7 @@ std::string crops_section(const Experiment& experiment, const SceneCurves& scene
     html += overview(truth, exposure, rects);
     for (PixelRect rect : rects) {
         const RgbImage true_crop = crop(truth, rect);
-        const float shown = std::min(exposure, usual_exposure(true_crop)); // avoids overexposed crops
+        const float shown = std::min(exposure, auto_exposure(true_crop)); // avoids overexposed crops
         html += "<div class=\"crops\" style=\"margin-top:14px\">\n";
         html += captioned(true_crop, shown, "reference", fmt::format("exposure {:+.1f}", shown));
         for (const PagePicture& picture : pictures)

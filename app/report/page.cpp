@@ -59,7 +59,7 @@ std::string html_page(std::string_view title, const std::string& body) {
                        escaped(title), style, body, compare_script);
 }
 
-std::string not_complete() {
+std::string interruption_note() {
     return interrupted() ? "<p><b>Not complete: the experiment was interrupted.</b> Run the same command again to "
                            "continue.</p>\n"
                          : "";

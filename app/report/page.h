@@ -13,7 +13,7 @@ namespace tessera {
 std::string html_page(std::string_view title, const std::string& body);
 
 /// Returns HTML that states that the experiment was interrupted; empty if it was not.
-std::string not_complete();
+std::string interruption_note();
 
 /// Returns an <img> with the image times 2^exposure as embedded PNG. `attributes` are HTML attributes.
 std::string inline_image(const RgbImage& image, float exposure, std::string_view attributes);

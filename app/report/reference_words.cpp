@@ -31,7 +31,7 @@ double error_ratio(const ExperimentOptions& options, const std::vector<Result>& 
                    const ReferenceOrigin& origin) {
     const Result *pt = nullptr, *same_as_reference = nullptr;
     const auto keep_better = [](const Result*& best, const Result& result) {
-        if (is_certain(result) && (!best || error_of(result) < error_of(*best)))
+        if (is_significant(result) && (!best || error_of(result) < error_of(*best)))
             best = &result;
     };
     for (const Result& result : results)
@@ -71,8 +71,8 @@ std::string words_on_judged_method(const ExperimentOptions& options, const std::
 
 } // namespace
 
-std::string reference_words(const Experiment& experiment, const std::string& scene,
-                            const std::vector<Result>& results) {
+std::string describe_references(const Experiment& experiment, const std::string& scene,
+                                const std::vector<Result>& results) {
     std::string text;
     for (const MeasuredScene& measured : experiment.scenes()) {
         if (measured.name() != scene)

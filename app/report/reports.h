@@ -55,7 +55,7 @@ std::vector<PixelRect> choose_crops(const RgbImage& reference, const std::vector
 std::string crops_section(const Experiment& experiment, const SceneCurves& scene);
 
 /// Returns the exposure for write_png, in stops, that maps the 90th percentile of the luminance to 0.8.
-float usual_exposure(const RgbImage& image);
+float auto_exposure(const RgbImage& image);
 
 // Charts, and the labels of their lines.
 
@@ -111,8 +111,8 @@ std::string bench_page(const Experiment& experiment, const std::vector<SceneCurv
 /// Describes a scene's complete references in plain text: file, method, reconstruction and own error. For a
 /// reference by a method among `results`, the results of the scene, explains the consequences. Empty: no
 /// reference is complete.
-std::string reference_words(const Experiment& experiment, const std::string& scene,
-                            const std::vector<Result>& results);
+std::string describe_references(const Experiment& experiment, const std::string& scene,
+                                const std::vector<Result>& results);
 
 /// Writes sweep.csv, sweep.json, sweep.md and a chart of each scene, sweep-SCENE.svg, to the sweep's folder.
 void write_sweep(const Experiment& experiment, const std::vector<Result>& results);

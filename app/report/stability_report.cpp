@@ -153,7 +153,7 @@ ReportTable table_of(const std::vector<StabilityRow>& rows) {
                               {bias_cell(f.squared_bias)},
                               {fmt::format("{:.3g}", f.spike)},
                               {fmt::format("{:.3g} at {},{}", f.worst, f.worst_pixel.x, f.worst_pixel.y)},
-                              {fmt::format("{:.0f} %", 100 * f.worst_share)},
+                              {fmt::format("{:.0f} %", 100 * f.worst_fraction)},
                               {fmt::format("{:.3g}", 100 * f.tenfold)},
                               {fmt::format("{:.3g}", 1000 * f.tone_mapped)},
                               {fmt::format("{} ({})", cell(f.halo_energy), cell(f.halo_peak))},
@@ -194,7 +194,7 @@ std::string page_section(const StabilityCase& c, const std::vector<StabilityRow>
     const std::vector<PagePicture> pictures = pictures_of(*c.experiment, named, reference);
     return fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"note\">{2}</p>\n{3}{4}{5}",
                        escaped(c.name()), escaped(failure(c)), escaped(conditions(c)), to_html(table_of(rows)),
-                       pictures.empty() ? "" : comparison(reference, pictures, usual_exposure(reference)), charts);
+                       pictures.empty() ? "" : comparison(reference, pictures, auto_exposure(reference)), charts);
 }
 
 /// Introduction of the report: the conditions, and notes as pairs of a term (may be empty) and its meaning.
@@ -253,7 +253,7 @@ void write_stability(const ExperimentOptions& suite, const std::vector<Stability
     const Introduction words = introduction(suite, level);
     const ReportTable verdicts = overview(cells_of(rows));
     std::string text = markdown(words) + to_markdown(verdicts);
-    std::string page = not_complete() + html(words) + to_html(verdicts);
+    std::string page = interruption_note() + html(words) + to_html(verdicts);
     for (const StabilityCase& c : cases) {
         std::vector<StabilityRow> of_case;
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(of_case),
@@ -276,7 +276,7 @@ void write_sheet(const ExperimentOptions& suite, const StabilityCase& c) {
     for (const Result& result : results)
         named.push_back({name_of(result), &result});
     const RgbImage& reference = reference_of(c).mean;
-    const float brighter = std::exp2(usual_exposure(reference));
+    const float brighter = std::exp2(auto_exposure(reference));
     std::vector<LabelledPicture> pictures = {{"reference", enlarged(reference, brighter)}};
     for (const PagePicture& picture : pictures_of(*c.experiment, named, reference))
         pictures.push_back({picture.name, enlarged(picture.image, brighter)});

@@ -84,7 +84,7 @@ std::string to_csv(const std::vector<StabilityRow>& rows) {
                              f.worst,
                              double(f.worst_pixel.x),
                              double(f.worst_pixel.y),
-                             f.worst_share,
+                             f.worst_fraction,
                              f.tile_edges,
                              f.tile_edges_error,
                              f.tone_mapped,

@@ -21,7 +21,7 @@ std::string cell(double value) {
 
 /// An error below its uncertainty is shown as an upper bound.
 std::string error_cell(const Result& r) {
-    return is_certain(r) ? cell(error_of(r)) : fmt::format("< {}", cell(error_uncertainty(r)));
+    return is_significant(r) ? cell(error_of(r)) : fmt::format("< {}", cell(error_uncertainty(r)));
 }
 
 std::string value_cell(const std::string& value) {
@@ -67,7 +67,7 @@ std::string reuse_table(const ExperimentOptions& options, const Results& results
     std::vector<std::string> columns;
     std::vector<std::pair<std::string, std::string>> lines;
     for (const Result& r : results) {
-        if (!std::isfinite(reused_share(r)))
+        if (!std::isfinite(reused_fraction(r)))
             continue; // no path reuse
         const std::pair line(r.title(), line_label(options, r));
         if (std::find(columns.begin(), columns.end(), first_value(r)) == columns.end())
@@ -87,9 +87,9 @@ std::string reuse_table(const ExperimentOptions& options, const Results& results
             const auto found = std::find_if(results.begin(), results.end(), [&](const Result& r) {
                 return r.title() == scene && line_label(options, r) == label && first_value(r) == column;
             });
-            text += found == results.end()
-                        ? " |"
-                        : fmt::format(" {} / {} |", percent(skipped_share(*found)), percent(reused_share(*found)));
+            text += found == results.end() ? " |"
+                                           : fmt::format(" {} / {} |", percent(skipped_fraction(*found)),
+                                                         percent(reused_fraction(*found)));
         }
         text += "\n";
     }
@@ -126,7 +126,7 @@ std::string reference_list(const Experiment& experiment, const Results& results)
         Results of_scene;
         std::ranges::copy_if(results, std::back_inserter(of_scene),
                              [&](const Result& r) { return r.scene == scene.name(); });
-        if (const std::string words = reference_words(experiment, scene.name(), of_scene); !words.empty())
+        if (const std::string words = describe_references(experiment, scene.name(), of_scene); !words.empty())
             text += fmt::format("- {}: {}\n", scene.name(), words);
     }
     return text;

@@ -13,7 +13,7 @@
 namespace tessera {
 
 Rgb known_albedo(const Demodulation& d, int x, int y) {
-    return d.albedo(x, y) + d.sampled_share(x, y) * (d.sampled_albedo(x, y) - d.albedo(x, y));
+    return d.albedo(x, y) + d.sampled_weight(x, y) * (d.sampled_albedo(x, y) - d.albedo(x, y));
 }
 
 void multiply_by_known_albedo(const Demodulation& d, RgbImage& image, const ParallelFor& parallel_for) {

@@ -122,8 +122,8 @@ GradientImages copy_for_clamping(const GradientImages& images, const ParallelFor
     result.dx_variance = copy(images.dx_variance);
     result.dy_variance = copy(images.dy_variance);
     result.demodulation = {
-        copy(d.value),         copy(d.albedo),           copy(d.sampled_albedo),   copy(d.albedo_variance),
-        copy(d.sampled_share), copy(d.sampled_variance), copy(d.value_covariance), copy(d.unexplained_variance)};
+        copy(d.value),          copy(d.albedo),           copy(d.sampled_albedo),   copy(d.albedo_variance),
+        copy(d.sampled_weight), copy(d.sampled_variance), copy(d.value_covariance), copy(d.unexplained_variance)};
     result.halves = {copy(images.halves.primal), copy(images.halves.dx), copy(images.halves.dy)};
     result.patch = images.patch;
     return result;
@@ -132,7 +132,7 @@ GradientImages copy_for_clamping(const GradientImages& images, const ParallelFor
 } // namespace
 
 bool can_clamp(const GradientImages& images) {
-    return !images.brightest.empty() && images.brightest.samples > 1 && images.parts.empty();
+    return !images.brightest.empty() && images.brightest.samples > 1 && images.components.empty();
 }
 
 ClampedSamples clamp_fireflies(const GradientImages& images, const GuidedParameters& parameters,

@@ -87,7 +87,7 @@ void Guided::redistribute(RgbImage& picture) {
         fit_.local = Image<float>(picture.width(), picture.height(), Unfilled());
         for_pixels(picture.width(), picture.height(), parallel_for_, [&](std::size_t i) {
             fit_.local.data()[i] =
-                brightness_of(picture.data()[i] / seen_albedo(raw_.features, i, parameters_.least_albedo));
+                brightness_of(picture.data()[i] / feature_albedo(raw_.features, i, parameters_.least_albedo));
         });
         fit_.local = local_mean_brightness(std::move(fit_.local), parameters_.local_radius, parallel_for_);
     }

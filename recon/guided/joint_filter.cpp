@@ -74,7 +74,7 @@ public:
     /// Multiplies light and dark_ by the albedo of the features: light becomes radiance.
     void make_radiance(const FeatureImages& features, AnyPlanes& light) {
         for_pixels(width_, height_, parallel_for_, [&](std::size_t i) {
-            const Rgb albedo = seen_albedo(features, i, parameters_.least_albedo);
+            const Rgb albedo = feature_albedo(features, i, parameters_.least_albedo);
             dark_.data()[i] *= brightness_of(albedo);
             for (std::size_t c = 0; c < light.size(); ++c)
                 light[c].data()[i] *= albedo[static_cast<int>(c % 3)];

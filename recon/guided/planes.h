@@ -34,7 +34,7 @@ template <class AnyPlanes>
 void write_light(const RgbImage& radiance, const FeatureImages& features, float least_albedo, std::size_t first,
                  const ParallelFor& parallel_for, AnyPlanes& planes) {
     for_pixels(radiance.width(), radiance.height(), parallel_for, [&](std::size_t i) {
-        const Rgb light = radiance.data()[i] / seen_albedo(features, i, least_albedo);
+        const Rgb light = radiance.data()[i] / feature_albedo(features, i, least_albedo);
         for (int c = 0; c < 3; ++c)
             planes[first + c].data()[i] = light[c];
     });

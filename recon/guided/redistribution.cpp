@@ -55,7 +55,7 @@ Channels followed_brightness(const RgbImage& picture, const FeatureImages& featu
     Channels brightness;
     make_planes(brightness, picture.width(), picture.height());
     for_pixels(picture.width(), picture.height(), parallel_for, [&](std::size_t i) {
-        const Rgb albedo = seen_albedo(features, i, parameters.least_albedo);
+        const Rgb albedo = feature_albedo(features, i, parameters.least_albedo);
         const float light = limited(brightness_of(picture.data()[i] / albedo));
         set_colour(brightness, i, albedo * (light + parameters.dark * local.data()[i]));
     });
@@ -78,7 +78,7 @@ void spread_one_level(const Channels& brightness, const PairWeights& weights, in
     });
 }
 
-/// Adds energy to pixels with similar features, and leaves in `energy` what exceeds most_added of S.
+/// Adds energy to pixels with similar features, and leaves in `energy` what exceeds largest_addition of S.
 void spread_to_similar(const Channels& brightness, const FeatureKernels& kernels,
                        const GuidedParameters& parameters, const ParallelFor& parallel_for, RgbImage& energy,
                        RgbImage& picture) {
@@ -92,7 +92,8 @@ void spread_to_similar(const Channels& brightness, const FeatureKernels& kernels
                          ratio);
     for_pixels(width, height, parallel_for, [&](std::size_t i) {
         const Rgb added = colour_at(spread, i);
-        const float size = size_of(added), limit = parameters.most_added * luminance(colour_at(brightness, i));
+        const float size = size_of(added),
+                    limit = parameters.largest_addition * luminance(colour_at(brightness, i));
         const float fraction = size > limit ? limit / size : 1;
         picture.data()[i] += fraction * added;
         energy.data()[i] = (1 - fraction) * added;

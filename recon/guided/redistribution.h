@@ -25,8 +25,8 @@ struct NearbyBrightness {
 };
 
 /// Adds `energy` to the picture. First it goes to pixels with similar features, by their brightness and albedo,
-/// METHODS (60), up to most_added of S. The rest goes to the pixels nearby, whatever their features, by the mean
-/// brightness of the pixels similar to each. The sum over the picture is kept up to rounding.
+/// METHODS (60), up to largest_addition of S. The rest goes to the pixels nearby, whatever their features, by the
+/// mean brightness of the pixels similar to each. The sum over the picture is kept up to rounding.
 /// @param local    L of METHODS (42), > 0
 /// @param picture  radiance without directly visible emission
 /// @returns the brightness that the rest followed

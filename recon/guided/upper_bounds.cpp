@@ -45,7 +45,7 @@ Image<float> lit_fractions(const RgbImage& radiance, int radius, const ParallelF
 } // namespace
 
 bool can_bound(const GradientImages& images) {
-    return images.patch > 1 && !images.primal_variance.empty() && images.parts.empty();
+    return images.patch > 1 && !images.primal_variance.empty() && images.components.empty();
 }
 
 RgbImage upper_bounds(const GradientImages& images, const FeatureKernels& kernels,

@@ -34,14 +34,14 @@ void check_sizes(const GradientImages& images) {
           &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal})
         check(*image);
     for (const Image<float>* variance :
-         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share,
+         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_weight,
           &d.unexplained_variance, &b.half, &g.nearness, &g.roughness})
         check(*variance);
-    for (const BasisComponent& part : images.parts) {
-        for (const RgbImage* image : {&part.primal, &part.dx, &part.dy})
+    for (const BasisComponent& component : images.components) {
+        for (const RgbImage* image : {&component.primal, &component.dx, &component.dy})
             check(*image);
         for (const Image<float>* numbers :
-             {&part.projection, &part.primal_variance, &part.dx_variance, &part.dy_variance})
+             {&component.projection, &component.primal_variance, &component.dx_variance, &component.dy_variance})
             check(*numbers);
     }
 }
@@ -51,14 +51,15 @@ struct FitKey {
     ReconstructionSettings settings;
     int samples; ///< samples of each pixel; 0: unknown
     bool has_gradients, has_variances, has_features, has_halves, has_brightest, is_demodulated;
-    std::size_t parts;
+    std::size_t components;
     float patch;
 
     FitKey(const GradientImages& images, const ReconstructionSettings& settings_)
         : settings(settings_), samples(images.brightest.samples), has_gradients(images.has_gradients()),
           has_variances(images.has_variances()), has_features(!images.features.empty()),
           has_halves(!images.halves.empty()), has_brightest(!images.brightest.empty()),
-          is_demodulated(!images.demodulation.empty()), parts(images.parts.size()), patch(images.patch) {}
+          is_demodulated(!images.demodulation.empty()), components(images.components.size()), patch(images.patch) {
+    }
 
     /// Returns whether a fit serves `later`, with less than a quarter more samples, which reduce noise by a tenth.
     bool serves(FitKey later) const {
@@ -106,7 +107,7 @@ std::uint64_t Reconstructor::bytes_for(const ReconstructionSize& size, Norm norm
     const std::uint64_t image = sizeof(Rgb) * static_cast<std::uint64_t>(size.width) * size.height;
     const PictureSolvers none(size.width, size.height);
     const bool has_some = solvers_ && solvers_->width() == size.width && solvers_->height() == size.height;
-    const std::uint64_t solvers = (has_some ? *solvers_ : none).bytes_for(norm, size.threads, size.parts);
+    const std::uint64_t solvers = (has_some ? *solvers_ : none).bytes_for(norm, size.threads, size.components);
     const std::uint64_t remodulation = size.is_demodulated ? bytes_to_remodulate(size.width, size.height) : 0;
     switch (norm) {
     case Norm::guided:

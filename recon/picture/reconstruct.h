@@ -31,7 +31,7 @@ struct Reconstruction {
 struct ReconstructionSize {
     int width, height;
     bool has_gradients, is_demodulated; ///< as GradientImages are
-    int parts = 0;                      ///< components of the basis
+    int components = 0;                 ///< components of the basis
     int threads = 1;
 };
 

@@ -43,18 +43,19 @@ auto scaled_by(const Image<float>& scale, const RgbImage& image) {
 
 } // namespace
 
-std::uint64_t ComponentSolver::bytes(int width, int height, int parts, int threads) {
+std::uint64_t ComponentSolver::bytes(int width, int height, int components, int threads) {
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     return PoissonSolver::bytes(width, height, threads) +
-           pixels * (static_cast<std::uint64_t>(parts) * (6 * sizeof(Rgb) + 2 * sizeof(float)) + 2 * sizeof(Rgb) +
-                     2 * sizeof(float));
+           pixels * (static_cast<std::uint64_t>(components) * (6 * sizeof(Rgb) + 2 * sizeof(float)) +
+                     2 * sizeof(Rgb) + 2 * sizeof(float));
 }
 
-void ComponentSolver::make_room(int parts) {
+void ComponentSolver::make_room(int components) {
     const int width = solver_.width(), height = solver_.height();
-    parts_.resize(static_cast<std::size_t>(parts));
-    for (Part& part : parts_)
-        for (RgbImage* kept : {&part.residual, &part.applied, &part.direction, &part.applied_step})
+    components_.resize(static_cast<std::size_t>(components));
+    for (Component& component : components_)
+        for (RgbImage* kept :
+             {&component.residual, &component.applied, &component.direction, &component.applied_step})
             if (kept->empty())
                 *kept = RgbImage(width, height);
     for (RgbImage* kept : {&sum_, &of_whole_})
@@ -64,18 +65,18 @@ void ComponentSolver::make_room(int parts) {
 
 /// Solves for each component by itself.
 void ComponentSolver::start(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
-    for (std::size_t l = 0; l < parts_.size(); ++l) {
-        const BasisComponent& given = images.parts[l];
+    for (std::size_t l = 0; l < components_.size(); ++l) {
+        const BasisComponent& given = images.components[l];
         solver_.solve(PoissonProblem{given.primal, given.dx, given.dy, std::max(alpha, least_alpha)},
-                      parts_[l].image, parallel_for);
+                      components_[l].image, parallel_for);
     }
 }
 
 /// Sets weights from each component's variances against those of the primal of the whole, which the primal's term
 /// contains.
 void ComponentSolver::weigh(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
-    for (std::size_t l = 0; l < parts_.size(); ++l)
-        parts_[l].weights = weights_of_part(images, images.parts[l], alpha, parallel_for);
+    for (std::size_t l = 0; l < components_.size(); ++l)
+        components_[l].weights = weights_of_component(images, images.components[l], alpha, parallel_for);
     whole_ = weights_of_gradients(images, alpha, {}, parallel_for);
 }
 
@@ -87,25 +88,26 @@ void ComponentSolver::reweigh(const GradientImages& images, float unit, const Pa
         return unit / (2 * std::max(glm::length(misfit), least_length * unit));
     };
     parallel_for(height, [&](int y) {
-        for (std::size_t l = 0; l < parts_.size(); ++l) {
-            const BasisComponent& given = images.parts[l];
-            Part& part = parts_[l];
-            const RgbImage& e = part.image;
+        for (std::size_t l = 0; l < components_.size(); ++l) {
+            const BasisComponent& given = images.components[l];
+            Component& component = components_[l];
+            const RgbImage& e = component.image;
             for (int x = 0; x + 1 < width; ++x)
-                part.weights.x(x, y) = weight(given.dx(x, y) - (e(x + 1, y) - e(x, y)));
+                component.weights.x(x, y) = weight(given.dx(x, y) - (e(x + 1, y) - e(x, y)));
             for (int x = 0; y + 1 < height && x < width; ++x)
-                part.weights.y(x, y) = weight(given.dy(x, y) - (e(x, y + 1) - e(x, y)));
+                component.weights.y(x, y) = weight(given.dy(x, y) - (e(x, y + 1) - e(x, y)));
         }
     });
 }
 
 /// Sets sum_ to the sum over l of s^l times the component's `summand`.
-void ComponentSolver::sum(const GradientImages& images, RgbImage Part::*summand, const ParallelFor& parallel_for) {
+void ComponentSolver::sum(const GradientImages& images, RgbImage Component::* summand,
+                          const ParallelFor& parallel_for) {
     parallel_for(solver_.height(), [&](int y) {
         std::fill_n(sum_.row(y), sum_.width(), Rgb(0));
-        for (std::size_t l = 0; l < parts_.size(); ++l) {
-            const float* s = images.parts[l].projection.row(y);
-            const Rgb* own = (parts_[l].*summand).row(y);
+        for (std::size_t l = 0; l < components_.size(); ++l) {
+            const float* s = images.components[l].projection.row(y);
+            const Rgb* own = (components_[l].*summand).row(y);
             for (int x = 0; x < sum_.width(); ++x)
                 sum_(x, y) += s[x] * own[x];
         }
@@ -116,7 +118,7 @@ void ComponentSolver::sum(const GradientImages& images, RgbImage Part::*summand,
 void ComponentSolver::find_residual(const GradientImages& images, float alpha, const ParallelFor& parallel_for) {
     const int next_row = 3 * solver_.width();
     const float weight = alpha * alpha;
-    sum(images, &Part::image, parallel_for);
+    sum(images, &Component::image, parallel_for);
     parallel_for(solver_.height(), [&](int y) {
         const auto misfit = [&](int x, int row, int count, float* out) {
             const float *given = values(images.primal, x, row), *own = values(sum_, x, row);
@@ -128,27 +130,28 @@ void ComponentSolver::find_residual(const GradientImages& images, float alpha, c
         else
             write_row(whole_, y, misfit, misfits(images.dx, sum_, 3), misfits(images.dy, sum_, next_row),
                       values(of_whole_, 0, y));
-        for (std::size_t l = 0; l < parts_.size(); ++l) {
-            const BasisComponent& given = images.parts[l];
-            Part& part = parts_[l];
-            write_row(part.weights, y, scaled_by(given.projection, of_whole_), misfits(given.dx, part.image, 3),
-                      misfits(given.dy, part.image, next_row), values(part.residual, 0, y));
+        for (std::size_t l = 0; l < components_.size(); ++l) {
+            const BasisComponent& given = images.components[l];
+            Component& component = components_[l];
+            write_row(component.weights, y, scaled_by(given.projection, of_whole_),
+                      misfits(given.dx, component.image, 3), misfits(given.dy, component.image, next_row),
+                      values(component.residual, 0, y));
         }
     });
 }
 
 /// Takes steps of conjugate gradients from the current residual. Returns false if stopped.
 bool ComponentSolver::descend(const GradientImages& images, float alpha, int iterations,
-                          const ParallelFor& parallel_for, const SolveWatch& watch) {
+                              const ParallelFor& parallel_for, const SolveWatch& watch) {
     const int width = solver_.width(), height = solver_.height(), next_row = 3 * width;
     const float weight = alpha * alpha;
     StepFactors factors;
     for (int i = 0; i < iterations; ++i) {
         if (!watch.goes_on(done_++, all_))
             return false;
-        for (Part& part : parts_)
-            solver_.solve(part.residual, std::max(alpha, least_alpha), part.solved, parallel_for);
-        sum(images, &Part::solved, parallel_for);
+        for (Component& component : components_)
+            solver_.solve(component.residual, std::max(alpha, least_alpha), component.solved, parallel_for);
+        sum(images, &Component::solved, parallel_for);
         std::vector<Channels> rows_rz(static_cast<std::size_t>(height)), rows_wz(rows_rz);
         parallel_for(height, [&](int y) {
             const auto own = [&](int x, int row, int count, float* out) {
@@ -162,13 +165,15 @@ bool ComponentSolver::descend(const GradientImages& images, float alpha, int ite
                 write_row(whole_, y, own, differences(sum_, 3), differences(sum_, next_row),
                           values(of_whole_, 0, y));
             Channels &rz = rows_rz[static_cast<std::size_t>(y)], &wz = rows_wz[static_cast<std::size_t>(y)];
-            for (std::size_t l = 0; l < parts_.size(); ++l) {
-                Part& part = parts_[l];
-                write_row(part.weights, y, scaled_by(images.parts[l].projection, of_whole_),
-                          differences(part.solved, 3), differences(part.solved, next_row),
-                          values(part.applied, 0, y));
-                const Channels a = products(values(part.residual, 0, y), values(part.solved, 0, y), width);
-                const Channels b = products(values(part.applied, 0, y), values(part.solved, 0, y), width);
+            for (std::size_t l = 0; l < components_.size(); ++l) {
+                Component& component = components_[l];
+                write_row(component.weights, y, scaled_by(images.components[l].projection, of_whole_),
+                          differences(component.solved, 3), differences(component.solved, next_row),
+                          values(component.applied, 0, y));
+                const Channels a =
+                    products(values(component.residual, 0, y), values(component.solved, 0, y), width);
+                const Channels b =
+                    products(values(component.applied, 0, y), values(component.solved, 0, y), width);
                 for (int c = 0; c < 3; ++c) {
                     rz[c] += a[c];
                     wz[c] += b[c];
@@ -181,17 +186,17 @@ bool ComponentSolver::descend(const GradientImages& images, float alpha, int ite
         factors.take(rz, wz);
         const Factors turns = factors.turns(), steps = factors.steps();
         parallel_for(height, [&](int y) {
-            for (Part& part : parts_)
-                take_step(turns, steps, width, values(part.solved, 0, y), values(part.applied, 0, y),
-                          values(part.direction, 0, y), values(part.applied_step, 0, y), values(part.image, 0, y),
-                          values(part.residual, 0, y));
+            for (Component& component : components_)
+                take_step(turns, steps, width, values(component.solved, 0, y), values(component.applied, 0, y),
+                          values(component.direction, 0, y), values(component.applied_step, 0, y),
+                          values(component.image, 0, y), values(component.residual, 0, y));
         });
     }
     return true;
 }
 
 int ComponentSolver::solve(const GradientImages& images, Norm norm, float alpha, RgbImage& image,
-                       const ParallelFor& parallel_for, const SolveWatch& watch) {
+                           const ParallelFor& parallel_for, const SolveWatch& watch) {
     const int width = solver_.width(), height = solver_.height();
     const bool is_reweighted = norm == Norm::l1 || norm == Norm::mixed;
     const int rounds = is_reweighted ? reweightings : 1;
@@ -200,11 +205,11 @@ int ComponentSolver::solve(const GradientImages& images, Norm norm, float alpha,
                                                     : linear_iterations;
     done_ = 0;
     all_ = rounds * iterations;
-    make_room(static_cast<int>(images.parts.size()));
+    make_room(static_cast<int>(images.components.size()));
     start(images, alpha, parallel_for);
     whole_ = {};
-    for (Part& part : parts_)
-        part.weights = all_of(1, width, height);
+    for (Component& component : components_)
+        component.weights = all_of(1, width, height);
     if (norm == Norm::weighted)
         weigh(images, alpha, parallel_for);
     for (int round = 0; round < rounds; ++round) {
@@ -214,7 +219,7 @@ int ComponentSolver::solve(const GradientImages& images, Norm norm, float alpha,
         if (!descend(images, alpha, iterations, parallel_for, watch))
             return 0;
     }
-    sum(images, &Part::image, parallel_for);
+    sum(images, &Component::image, parallel_for);
     image = sum_;
     return done_ + 1;
 }

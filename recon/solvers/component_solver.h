@@ -32,10 +32,10 @@ public:
     ComponentSolver(int width, int height) : solver_(width, height) {}
 
     /// Returns the bytes of such a solver, used by so many threads.
-    static std::uint64_t bytes(int width, int height, int parts, int threads);
+    static std::uint64_t bytes(int width, int height, int components, int threads);
 
     /// Returns the number of components for which it has memory.
-    int parts() const { return static_cast<int>(parts_.size()); }
+    int components() const { return static_cast<int>(components_.size()); }
 
     /// Writes E to `image`. Returns the number of inner solves over all components, or 0 if stopped between two of
     /// them. The result has the same bits for any parallel_for.
@@ -46,22 +46,22 @@ public:
               const ParallelFor& parallel_for = serial_for, const SolveWatch& watch = {});
 
 private:
-    struct Part {
+    struct Component {
         RgbImage image, residual, solved, applied, direction, applied_step;
         EdgeWeights weights;
     };
 
-    void make_room(int parts);
+    void make_room(int components);
     void start(const GradientImages& images, float alpha, const ParallelFor& parallel_for);
     void weigh(const GradientImages& images, float alpha, const ParallelFor& parallel_for);
     void reweigh(const GradientImages& images, float unit, const ParallelFor& parallel_for);
-    void sum(const GradientImages& images, RgbImage Part::*summand, const ParallelFor& parallel_for);
+    void sum(const GradientImages& images, RgbImage Component::* summand, const ParallelFor& parallel_for);
     void find_residual(const GradientImages& images, float alpha, const ParallelFor& parallel_for);
     bool descend(const GradientImages& images, float alpha, int iterations, const ParallelFor& parallel_for,
                  const SolveWatch& watch);
 
     PoissonSolver solver_;
-    std::vector<Part> parts_;
+    std::vector<Component> components_;
     EdgeWeights whole_;      ///< v; empty: 0
     RgbImage sum_;           ///< sum of projections times one image of each component
     RgbImage of_whole_;      ///< terms of E in the normal equations, before multiplication by a projection

@@ -145,9 +145,9 @@ EdgeWeights weights_of_gradients(const GradientImages& images, float alpha, cons
     return weights_of(images, images, alpha, parameters, parallel_for);
 }
 
-EdgeWeights weights_of_part(const GradientImages& images, const BasisComponent& part, float alpha,
-                            const ParallelFor& parallel_for) {
-    return weights_of(images, part, alpha, {}, parallel_for);
+EdgeWeights weights_of_component(const GradientImages& images, const BasisComponent& component, float alpha,
+                                 const ParallelFor& parallel_for) {
+    return weights_of(images, component, alpha, {}, parallel_for);
 }
 
 } // namespace tessera

@@ -34,7 +34,7 @@ EdgeWeights weights_of_gradients(const GradientImages& images, float alpha,
                                  const ParallelFor& parallel_for = serial_for);
 
 /// Returns the same for the gradients of a basis component, against the variance of the primal of the whole.
-EdgeWeights weights_of_part(const GradientImages& images, const BasisComponent& part, float alpha,
-                            const ParallelFor& parallel_for = serial_for);
+EdgeWeights weights_of_component(const GradientImages& images, const BasisComponent& component, float alpha,
+                                 const ParallelFor& parallel_for = serial_for);
 
 } // namespace tessera

@@ -23,10 +23,10 @@ SolveStats PictureSolvers::solve(const GradientImages& images, Norm norm, float 
         alpha = weighted_alpha(alpha, images.patch);
     const PoissonProblem problem{images.primal, images.dx, images.dy, alpha};
     SolveStats stats;
-    if (images.parts.empty())
-        parts_.reset();
-    if (!images.parts.empty() && expands(norm)) {
-        stats.iterations = made(parts_).solve(images, norm, alpha, picture, parallel_for, watch);
+    if (images.components.empty())
+        components_.reset();
+    if (!images.components.empty() && reconstructs_components(norm)) {
+        stats.iterations = made(components_).solve(images, norm, alpha, picture, parallel_for, watch);
     } else if (norm == Norm::l2) {
         made(l2_).solve(problem, picture, parallel_for);
         stats = {poisson_residual(problem, picture, parallel_for), 1};
@@ -71,9 +71,11 @@ void PictureSolvers::forget_halves() {
         halves_->forget();
 }
 
-std::uint64_t PictureSolvers::bytes_for(Norm norm, int threads, int parts) const {
-    if (parts > 0 && expands(norm))
-        return parts_ && parts_->parts() >= parts ? 0 : ComponentSolver::bytes(width_, height_, parts, threads);
+std::uint64_t PictureSolvers::bytes_for(Norm norm, int threads, int components) const {
+    if (components > 0 && reconstructs_components(norm))
+        return components_ && components_->components() >= components
+                   ? 0
+                   : ComponentSolver::bytes(width_, height_, components, threads);
     const std::uint64_t weighted = WeightedSolver::bytes(width_, height_, threads);
     switch (norm) {
     case Norm::l2:

@@ -47,7 +47,7 @@ public:
     void forget_halves();
 
     /// Returns the bytes that solving for a picture would newly allocate, on so many threads.
-    std::uint64_t bytes_for(Norm norm, int threads, int parts) const;
+    std::uint64_t bytes_for(Norm norm, int threads, int components) const;
 
 private:
     template <class Solver>
@@ -61,7 +61,7 @@ private:
     std::optional<PoissonSolver> l2_;
     std::optional<L1Solver> l1_;
     std::optional<WeightedSolver> weighted_, halves_;
-    std::optional<ComponentSolver> parts_;
+    std::optional<ComponentSolver> components_;
 };
 
 } // namespace tessera

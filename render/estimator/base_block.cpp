@@ -76,7 +76,7 @@ void record_light(const Pass& pass, const BasePath& path, std::vector<FoundLight
         const Vertex& x = v.vertex;
         if ((i + 1 == path.size() && !v.escapes) || x.bsdf.roughness() < PathGuiding::least_roughness)
             continue;
-        const Rgb beyond = (v.hit_brings + v.arriving) / (v.pdf_w * v.survival);
+        const Rgb beyond = (v.hit_contribution + v.arriving) / (v.pdf_w * v.survival);
         if (!(luminance(beyond) > 0) || !is_finite(beyond))
             continue;
         const float irradiance = v.is_delta ? 0 : luminance(beyond) * std::abs(v.to_next.z);

@@ -23,17 +23,17 @@ namespace tessera {
 // are smooth even where normals and roughnesses are not. Beside its radiance, a base path contributes only to
 // B^l: the light that arrives at x_1, before it is scattered (ArrivingLight).
 
-inline constexpr int most_parts = 16;
+inline constexpr int max_components = 16;
 
 /// Returns the number of functions b^l of a basis; 0: it has no components.
-int part_count(Basis basis);
+int component_count(Basis basis);
 /// Returns the number of basis components of a render.
-inline int part_count(const RenderSettings& s) {
-    return is_expanded(s) ? part_count(s.basis) : 0;
+inline int component_count(const RenderSettings& s) {
+    return is_expanded(s) ? component_count(s.basis) : 0;
 }
 
-/// Evaluates the part_count() functions b^l in a unit direction (world). They are orthogonal and have the same
-/// length. With this length, the projection of a diffuse surface has a length of about 1, so a misfit of
+/// Evaluates the component_count() functions b^l in a unit direction (world). They are orthogonal and have the
+/// same length. With this length, the projection of a diffuse surface has a length of about 1, so a misfit of
 /// components weighs as much as a misfit of e in the reconstruction.
 void evaluate_basis(Basis basis, glm::vec3 direction, float* values);
 
@@ -56,8 +56,8 @@ public:
     /// Sets all sums to 0, for pixels with these albedos. Keeps nothing if the basis has no components.
     void reset(Basis basis, std::span<const Rgb> albedos);
 
-    int parts() const { return parts_; }
-    bool is_kept() const { return parts_ > 0; }
+    int components() const { return components_; }
+    bool is_kept() const { return components_ > 0; }
 
     /// Adds light paths in all lanes.
     /// @param scatter  at y_1 of each lane
@@ -70,15 +70,15 @@ public:
     /// @param coefficient  e, the radiance over the albedo
     /// @param projection   s^l
     /// @param parts        receives parts() components
-    void expand(int m, Rgb coefficient, const float* projection, Rgb* parts) const;
+    void expand(int m, Rgb coefficient, const float* projection, Rgb* components) const;
 
 private:
     void add_eight(int first, const FirstScatter& scatter, const Vec3Lanes& carried);
-    const Vec3Lanes& part(int l) const { return *light_[l]; }
-    Vec3Lanes& part(int l) { return *light_[l]; }
+    const Vec3Lanes& component(int l) const { return *light_[l]; }
+    Vec3Lanes& component(int l) { return *light_[l]; }
 
     Basis basis_ = Basis::none;
-    int parts_ = 0, count_ = 0;
+    int components_ = 0, count_ = 0;
     Vec3Lanes least_f_cos_;
     std::vector<std::unique_ptr<Vec3Lanes>> light_; // never shrinks
 };

@@ -44,11 +44,11 @@ DirectionMap::DirectionMap(const Shares& shares) {
     }
 }
 
-TriedShares squares_by_share(float value, float pdf_w, float guided, float used) {
+ShareCandidates second_moments(float value, float pdf_w, float guided, float used) {
     const float own = std::max(pdf_w - used * guided, 0.0f) / (1 - used); // p_BSDF, METHODS (22)
-    TriedShares squares;
+    ShareCandidates squares;
     for (std::size_t i = 0; i < squares.size(); ++i)
-        squares[i] = value * value * (pdf_w / ((1 - tried_shares[i]) * own + tried_shares[i] * guided));
+        squares[i] = value * value * (pdf_w / ((1 - share_candidates[i]) * own + share_candidates[i] * guided));
     return squares;
 }
 
@@ -67,7 +67,7 @@ constexpr float prior_samples = 4;  // weight of the prior, in samples
 // Share of a guide without samples that estimate it; and the least relative reduction of the second moment,
 // because guided paths cost more.
 constexpr float prior_share = 0.25f, least_gain = 0.1f;
-// With Guiding::where_it_pays, the largest left_of_squares() of a guided scene.
+// With Guiding::where_it_pays, the largest remaining_second_moment() of a guided scene.
 constexpr double max_remaining = 0.85;
 
 /// A value for the square of bins, for its quarters, and so on down to single bins.
@@ -144,7 +144,7 @@ void GuidingLearner::Sums::add(const FoundLight& f, const DirectionGuide* known)
     if (!known)
         return;
     const float guided = f.irradiance > 0 ? known->map.pdf_w(f.direction) : 0;
-    const TriedShares tried = squares_by_share(f.value, f.pdf_w, guided, known->share);
+    const ShareCandidates tried = second_moments(f.value, f.pdf_w, guided, known->share);
     if (!std::ranges::all_of(tried, [](float s) { return std::isfinite(s); }))
         return;
     for (std::size_t i = 0; i < squares.size(); ++i)
@@ -223,8 +223,8 @@ void GuidingLearner::lay_grid(std::span<const std::vector<FoundLight>> found) {
     }
     const glm::vec3 extent = high - grid_.low;
     const float longest = std::max({extent.x, extent.y, extent.z, 1e-30f});
-    grid_.cells_a_length = cells_along / longest;
-    grid_.size = glm::clamp(glm::ivec3(extent * grid_.cells_a_length + 1.0f), 1, cells_along);
+    grid_.cells_per_length = cells_along / longest;
+    grid_.size = glm::clamp(glm::ivec3(extent * grid_.cells_per_length + 1.0f), 1, cells_along);
     cells_.resize(static_cast<std::size_t>(grid_.count()));
 }
 
@@ -269,7 +269,7 @@ void GuidingLearner::add(const FoundLight& f, const PathGuiding* drawn_with) {
 GuidingGrid GuidingLearner::coarser(int times) const {
     GuidingGrid grid = grid_;
     grid.size = ((grid_.size - 1) >> times) + 1;
-    grid.cells_a_length /= static_cast<float>(1 << times);
+    grid.cells_per_length /= static_cast<float>(1 << times);
     return grid;
 }
 
@@ -294,10 +294,10 @@ DirectionGuide GuidingLearner::guide_of(const Sums& sums, const DirectionGuide* 
     const DirectionMap::Shares shares =
         distribute(Quadtree::sums_of(sums.first), Quadtree::sums_of(sums.second), Quadtree::sums_of(expected));
     const float unknown = prior ? prior->share : prior_share;
-    return {DirectionMap(shares), sums.share_samples() > 0 ? tried_shares[sums.best_share()] : unknown};
+    return {DirectionMap(shares), sums.share_samples() > 0 ? share_candidates[sums.best_share()] : unknown};
 }
 
-double GuidingLearner::left_of_squares() const {
+double GuidingLearner::remaining_second_moment() const {
     double logs = 0, all = 0;
     for (const std::unique_ptr<Sums>& sums : cells_)
         if (const double share_samples = sums ? sums->share_samples() : 0; share_samples > 0) {
@@ -328,7 +328,7 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
         });
         above = std::move(guide_of_cell);
     }
-    const double left = left_of_squares();
+    const double left = remaining_second_moment();
     if (when == Guiding::off || (when == Guiding::where_it_pays && left >= max_remaining))
         for (DirectionGuide& guide : guides)
             guide.share = 0;

@@ -39,14 +39,14 @@ private:
     /// Sums over the samples of one cell. Effective numbers of samples are (sum w)^2 / sum w^2.
     struct Sums {
         std::array<float, DirectionMap::bins> first{}, second{}; ///< irradiance and its square, by bin
-        std::array<double, tried_shares.size()> squares{};       ///< squares_by_share(), METHODS (23)
+        std::array<double, share_candidates.size()> squares{};   ///< second_moments(), METHODS (23)
         double fourth = 0;                                       ///< square of the first of these, without a guide
 
         void add(const FoundLight& found, const DirectionGuide* known);
         void add(const Sums& other);
         double samples() const;         ///< effective number of samples in all bins
         double share_samples() const;   ///< effective number of samples that estimate shares; 0: too few
-        std::size_t best_share() const; ///< index of the best of tried_shares; 0: none pays
+        std::size_t best_share() const; ///< index of the best of share_candidates; 0: none pays
     };
     using Cells = std::vector<std::unique_ptr<Sums>>; ///< null: nothing was found there
 
@@ -56,7 +56,7 @@ private:
     GuidingGrid coarser(int halvings) const;
     Cells merged(int halvings) const;
     static DirectionGuide guide_of(const Sums& sums, const DirectionGuide* prior);
-    double left_of_squares() const; ///< see PathGuiding
+    double remaining_second_moment() const; ///< see PathGuiding
 
     GuidingGrid grid_;
     Cells cells_;

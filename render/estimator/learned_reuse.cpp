@@ -19,7 +19,7 @@ constexpr double most_paths_alone = 12; // not tuned
 constexpr double paths_of_mean = 4;
 
 double rho_of(const CellStatistics& known) {
-    return known.shared_noise / known.own_noise;
+    return known.reuse_noise / known.own_noise;
 }
 
 /// Returns the mean of rho over cells, weighted by their paths with light. Each rho is limited to 1, because an
@@ -40,7 +40,7 @@ void CellStatistics::add_gradient_noise(double shared, double own) {
     if (!(own > 0))
         return;
     const double root = std::sqrt(own);
-    shared_noise += shared / root;
+    reuse_noise += shared / root;
     own_noise += root;
 }
 
@@ -49,7 +49,7 @@ CellStatistics& CellStatistics::operator+=(const CellStatistics& more) {
     lit += more.lit;
     sum += more.sum;
     squares += more.squares;
-    shared_noise += more.shared_noise;
+    reuse_noise += more.reuse_noise;
     own_noise += more.own_noise;
     offset_rays += more.offset_rays;
     base_rays += more.base_rays;
@@ -58,8 +58,8 @@ CellStatistics& CellStatistics::operator+=(const CellStatistics& more) {
 
 LearnedReuse::LearnedReuse(glm::ivec2 size, const RenderSettings& settings)
     : tile_(settings.tile), adapts_(settings.adapt_tile),
-      learns_((settings.adapt_tile && has_tiles_to_cut(settings)) || settings.path_guiding != Guiding::off),
-      wants_pilot_(finds_gain_of_sharing(settings)), size_(size),
+      learns_((settings.adapt_tile && can_split_tiles(settings)) || settings.path_guiding != Guiding::off),
+      wants_pilot_(measures_reuse_gain(settings)), size_(size),
       cells_((size.x + cell_edge - 1) / cell_edge, (size.y + cell_edge - 1) / cell_edge),
       gain_(cells_.width(), cells_.height()) {}
 
@@ -102,7 +102,7 @@ int LearnedReuse::best_split_edge(const CellStatistics& known) const {
 }
 
 int LearnedReuse::split_edge(PixelRect piece) const {
-    return adapts_ && paths_alone(piece) == 0 ? best_split_edge(known_of(piece)) : tile_;
+    return adapts_ && paths_without_reuse(piece) == 0 ? best_split_edge(known_of(piece)) : tile_;
 }
 
 /// Returns the cost of a sample with path reuse, in samples of path tracing; the constants are fitted to measured

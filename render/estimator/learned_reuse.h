@@ -20,7 +20,7 @@ struct CellStatistics {
 
     // Results of the pilot pass (pilot.h): sums of add_gradient_noise(), and of the rays per offset path and per
     // base path.
-    double shared_noise = 0, own_noise = 0;
+    double reuse_noise = 0, own_noise = 0;
     double offset_rays = 0, base_rays = 0;
 
     void add_path(double luminance) {
@@ -79,7 +79,7 @@ public:
     int split_edge(PixelRect piece) const;
 
     /// Returns the number of base paths of each pixel of a piece that reuses no paths; 0: the piece reuses paths.
-    int paths_alone(PixelRect piece) const { return is_alone(cell_of(piece)) ? paths_alone_ : 0; }
+    int paths_without_reuse(PixelRect piece) const { return is_alone(cell_of(piece)) ? paths_alone_ : 0; }
 
     /// Learns from the arriving luminances of a pass's base paths; negative: a pixel without a path.
     void learn(const Image<float>& luminance);
@@ -148,7 +148,7 @@ void LearnedReuse::for_each_piece(PixelRect tile, Visit&& visit) const {
     const PixelRect pieces[] = {
         {tile.x0, tile.y0, x, y}, {x, tile.y0, tile.x1, y}, {tile.x0, y, x, tile.y1}, {x, y, tile.x1, tile.y1}};
     const auto is_like_first = [&](PixelRect piece) {
-        return piece.empty() || paths_alone(piece) == paths_alone(pieces[0]);
+        return piece.empty() || paths_without_reuse(piece) == paths_without_reuse(pieces[0]);
     };
     if (std::ranges::all_of(pieces, is_like_first))
         return visit(tile);

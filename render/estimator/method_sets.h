@@ -61,14 +61,14 @@ void for_each_gpt_set(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&& 
 
 /// G-PR: T is PR's tile and one more column and row, so that both pixels of every gradient are in it; without
 /// them the gradients across tile borders would be biased [Bauszat 2017, 3.2]. Calls `visit(inner, all,
-/// paths_alone)`; T is `all`, row by row; or if there are paths_alone, T = {k} for each pixel of it
-/// (LearnedReuse::paths_alone).
+/// paths_without_reuse)`; T is `all`, row by row; or if there are paths_without_reuse, T = {k} for each pixel of
+/// it (LearnedReuse::paths_without_reuse).
 template <class Visit>
 void for_each_gpr_set(const Pass& pass, PixelRect block, SamplingSet& set, Visit&& visit) {
-    pass.grid.for_each_split(block, [&](PixelRect inner, int paths_alone) {
+    pass.grid.for_each_split(block, [&](PixelRect inner, int paths_without_reuse) {
         const PixelRect all = inner.with_halo(pass.size);
         set.assign(all);
-        visit(inner, all, paths_alone);
+        visit(inner, all, paths_without_reuse);
     });
 }
 
@@ -92,12 +92,12 @@ void for_each_set_of_tile(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visi
             });
         });
     case Method::gpr:
-        return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_alone) {
-            if (paths_alone == 0)
+        return for_each_gpr_set(pass, tile, set, [&](PixelRect inner, PixelRect, int paths_without_reuse) {
+            if (paths_without_reuse == 0)
                 return visit(inner);
             for_each_square(inner, 1, [&](PixelRect alone) {
                 set.assign(alone);
-                for (set.number = 0; set.number < paths_alone; ++set.number)
+                for (set.number = 0; set.number < paths_without_reuse; ++set.number)
                     visit(alone);
             });
         });
@@ -114,8 +114,8 @@ void for_each_set_with(const Pass& pass, glm::ivec2 p, SamplingSet& set, Visit&&
                 visit(inner);
         });
     const PixelRect block = pass.grid.block_at(p);
-    for_each_gpr_set(pass, block, set, [&](PixelRect inner, PixelRect all, int paths_alone) {
-        if (paths_alone == 0 && all.contains(p))
+    for_each_gpr_set(pass, block, set, [&](PixelRect inner, PixelRect all, int paths_without_reuse) {
+        if (paths_without_reuse == 0 && all.contains(p))
             visit(inner);
     });
 }

@@ -28,15 +28,15 @@ void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& work
 
 /// Returns the basis components of the radiance of pixel (x, y) from its own base path; empty without such a
 /// basis.
-std::span<const Rgb> own_parts(const Pass& pass, int x, int y, Rgb coefficient, Rgb albedo, Worker& worker,
-                               const Film& film) {
+std::span<const Rgb> own_components(const Pass& pass, int x, int y, Rgb coefficient, Rgb albedo, Worker& worker,
+                                    const Film& film) {
     if (!is_expanded(pass.settings))
         return {};
     worker.own.reset(pass.settings.basis, {&albedo, 1});
     worker.reuse.keep(worker.base.at(x, y), 0, worker.own);
-    worker.own_parts.resize(static_cast<std::size_t>(worker.own.parts()));
-    worker.own.expand(0, coefficient, film.projection(x, y), worker.own_parts.data());
-    return worker.own_parts;
+    worker.own_components.resize(static_cast<std::size_t>(worker.own.components()));
+    worker.own.expand(0, coefficient, film.projection(x, y), worker.own_components.data());
+    return worker.own_components;
 }
 
 /// Path tracing: T = {k}, so R = 1, and the pixel gets c_k of METHODS (4), with the MIS weights of emitter and
@@ -73,7 +73,7 @@ void add_reused(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     if (worker.set_means.has(x, y))
         worker.set_means.take_primal(x, y, sample);
     else
-        sample.parts = own_parts(pass, x, y, sample.primal, albedo, worker, film);
+        sample.components = own_components(pass, x, y, sample.primal, albedo, worker, film);
     worker.set_means.take_gradients(x, y, sample);
     add_sample(pass, x, y, sample, worker, film);
 }
@@ -96,7 +96,8 @@ void reuse_in_set(const Pass& pass, PixelRect all, int position, Worker& worker,
 template <class Visit>
 void for_each_position(const Pass& pass, PixelRect block, Worker& worker, Visit&& visit) {
     bool reuses = false;
-    pass.grid.for_each_split(block, [&](PixelRect, int paths_alone) { reuses = reuses || paths_alone == 0; });
+    pass.grid.for_each_split(
+        block, [&](PixelRect, int paths_without_reuse) { reuses = reuses || paths_without_reuse == 0; });
     if (!reuses || !worker.base.is_mixed())
         return visit(0);
     for (int position = 0; position < camera_positions(pass.settings); ++position) {
@@ -126,7 +127,7 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     // The gradients of the last pixels need the base paths of one more column and row.
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
-    worker.set_means.begin(area, part_count(pass.settings));
+    worker.set_means.begin(area, component_count(pass.settings));
     for_each_square(area, 1, [&](PixelRect pixel) {
         for_each_gpt_set(pass, {pixel.x0, pixel.y0}, worker.set,
                          [&](PixelRect all) { reuse_in_set(pass, all, 0, worker, film); });
@@ -175,18 +176,18 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);
-    worker.set_means.begin(area, part_count(pass.settings));
+    worker.set_means.begin(area, component_count(pass.settings));
     for_each_position(pass, block, worker, [&](int position) {
-        for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_alone) {
-            if (paths_alone == 0)
+        for_each_gpr_set(pass, block, worker.set, [&](PixelRect inner, PixelRect all, int paths_without_reuse) {
+            if (paths_without_reuse == 0)
                 reuse_in_set(pass, all, position, worker, film);
             else if (position == 0)
-                take_means(pass, inner, paths_alone, worker);
+                take_means(pass, inner, paths_without_reuse, worker);
         });
     });
-    pass.grid.for_each_split(block, [&](PixelRect inner, int paths_alone) {
-        if (paths_alone > 0)
-            add_alone(pass, inner, inner.with_halo(pass.size), paths_alone, worker, film);
+    pass.grid.for_each_split(block, [&](PixelRect inner, int paths_without_reuse) {
+        if (paths_without_reuse > 0)
+            add_alone(pass, inner, inner.with_halo(pass.size), paths_without_reuse, worker, film);
         else
             for_each_square(inner, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
     });

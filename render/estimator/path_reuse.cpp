@@ -36,13 +36,13 @@ void PathReuse::share(int base, float scale, std::span<Rgb> radiance, ArrivingLi
         return; // a base path without light is not shifted
     is_tried_ = true;
     paths_.reset(light_.slot_count(), static_cast<int>(set_.size()), arriving != nullptr);
-    if (onlooker_)
-        onlooker_->begins(paths_.offsets(), light_.slot_count());
+    if (observer_)
+        observer_->begins(paths_.offsets(), light_.slot_count());
     settings_.shift == ShiftKind::replay ? replay_to_all(base) : shift_to_all(base);
     settle_outcomes(base);
     balance(base, scale, radiance);
     if (arriving)
-        balance_parts(base, scale, *arriving);
+        balance_components(base, scale, *arriving);
 }
 
 void PathReuse::keep(const BasePath& path, int lane, ArrivingLight& arriving) {
@@ -88,7 +88,7 @@ void PathReuse::replay_to_all(int base) {
                 paths_.row(slot).set(m, 1, replayed_light_.carried(slot));
         if (paths_.keeps_scatters())
             record_replayed_scatters(m);
-        if (onlooker_)
+        if (observer_)
             notify_of_replay(m);
     }
 }
@@ -109,10 +109,10 @@ void PathReuse::notify_of_replay(int m) {
     Rgb throughput(1);
     for (int i = 0; i < replayed_.size(); ++i) {
         const BaseVertex& y = replayed_[i];
-        onlooker_->arrives(m, y.vertex);
+        observer_->arrives(m, y.vertex);
         const auto end = [&](int slot, float pdf_w, bool is_delta) {
             if (slot <= std::min(light_.last_alive(), replayed_light_.last_alive()) && light_.is_alive(slot))
-                onlooker_->ends(m, slot, {i, pdf_w, is_delta, 1, paths_.ratio(slot, m), paths_.value(slot, m)});
+                observer_->ends(m, slot, {i, pdf_w, is_delta, 1, paths_.ratio(slot, m), paths_.value(slot, m)});
         };
         end(light_.emitter_slot(i), replayed_.light(i).pdf_sum, false);
         if (i + 1 == replayed_.size() && !y.escapes)
@@ -120,7 +120,7 @@ void PathReuse::notify_of_replay(int m) {
         end(light_.hit_slot(i), y.pdf_w + y.hit_pdf_w, y.is_delta);
         throughput *= y.throughput();
         if (i + 1 < replayed_.size())
-            onlooker_->bounces(m, {i, y.pdf_w, y.is_delta, 1, 1, throughput});
+            observer_->bounces(m, {i, y.pdf_w, y.is_delta, 1, 1, throughput});
     }
 }
 
@@ -187,7 +187,7 @@ void PathReuse::add_own_arriving(const BasePath& path, int slot, float factor, i
 
 /// Adds the arriving light of all light paths to the pixels. It sums light paths with the same first scatter
 /// before it evaluates the basis in their direction.
-void PathReuse::balance_parts(int base, float scale, ArrivingLight& arriving) {
+void PathReuse::balance_components(int base, float scale, ArrivingLight& arriving) {
     const int count = padded(paths_.offsets());
     int index = -1; // of the first scatter whose light is being summed
     const auto flush = [&](int next) {

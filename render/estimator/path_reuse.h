@@ -63,9 +63,9 @@ public:
         return light_.is_alive(slot) ? scale * count / ratio_sum(slot) : 0;
     }
     /// Sets the observer of the next share(); null: none.
-    void set_onlooker(ShiftOnlooker* onlooker) {
-        onlooker_ = onlooker;
-        shift_.set_onlooker(onlooker);
+    void set_observer(ShiftObserver* observer) {
+        observer_ = observer;
+        shift_.set_observer(observer);
     }
 
 private:
@@ -77,7 +77,7 @@ private:
     void settle_outcomes(int base);
     void balance(int base, float scale, std::span<Rgb> radiance) const;
     void add_own_arriving(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const;
-    void balance_parts(int base, float scale, ArrivingLight& arriving);
+    void balance_components(int base, float scale, ArrivingLight& arriving);
     /// Returns R of a light path, METHODS (8) and (20).
     float ratio_sum(int slot) const;
 
@@ -97,7 +97,7 @@ private:
     Vec3Lanes carried_; ///< weighted sum of c_m over the light paths through one first scatter
     OutcomeLanes outcomes_;
     bool is_tried_ = false;
-    ShiftOnlooker* onlooker_ = nullptr;
+    ShiftObserver* observer_ = nullptr;
     LaneMask arrived_; ///< pixels with at least one valid shift
     LaneMask lost_;    ///< pixels with an occluded edge
 };

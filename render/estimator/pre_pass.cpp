@@ -48,7 +48,7 @@ void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, F
     Vertex seen;
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-            float s[most_parts] = {};
+            float s[max_components] = {};
             for (int point = 0; point < projection_points; ++point)
                 if (pass.first_vertex(tracer, x, y, point, seen))
                     project(seen, basis, directions, s);

@@ -10,10 +10,11 @@ void SamplingSet::assign(PixelRect rect) {
 }
 
 void SamplingSet::expand(const Film& film) {
-    parts.resize(static_cast<std::size_t>(size() * arriving.parts()));
+    components.resize(static_cast<std::size_t>(size() * arriving.components()));
     for (int i = 0; arriving.is_kept() && i < size(); ++i) {
         const glm::ivec2 p = pixels[i];
-        arriving.expand(i, coefficient(i), film.projection(p.x, p.y), parts.data() + i * arriving.parts());
+        arriving.expand(i, coefficient(i), film.projection(p.x, p.y),
+                        components.data() + i * arriving.components());
     }
 }
 
@@ -29,13 +30,13 @@ void SamplingSet::count(const ReuseDecision& decision, int k) {
         ++(decision.survives() ? of_path.reused : of_path.skipped);
 }
 
-void SetMeans::begin(PixelRect area, int parts) {
+void SetMeans::begin(PixelRect area, int components) {
     area_ = area;
-    part_count_ = static_cast<std::size_t>(parts);
+    component_count_ = static_cast<std::size_t>(components);
     const auto pixels = static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
     pixels_.assign(pixels, {});
-    for (std::vector<Rgb>* sums : {&parts_, &parts_dx_, &parts_dy_})
-        sums->assign(pixels * part_count_, Rgb(0));
+    for (std::vector<Rgb>* sums : {&components_, &components_dx_, &components_dy_})
+        sums->assign(pixels * component_count_, Rgb(0));
 }
 
 void SetMeans::add(const SamplingSet& set, PixelRect all) {
@@ -46,27 +47,28 @@ void SetMeans::add(const SamplingSet& set, PixelRect all) {
         const std::size_t at = index(p.x, p.y);
         Pixel& pixel = pixels_[at];
         pixel.reuse += set.reuse[i];
-        add(set, {}, i, pixel.primal, parts_at(parts_, at));
+        add(set, {}, i, pixel.primal, components_at(components_, at));
         if (set.positions > 1)
             see(set, i, pixel);
         if (p.x + 1 < all.x1)
-            add(set, i, i + 1, pixel.dx, parts_at(parts_dx_, at));
+            add(set, i, i + 1, pixel.dx, components_at(components_dx_, at));
         if (p.y + 1 < all.y1)
-            add(set, i, i + all.width(), pixel.dy, parts_at(parts_dy_, at));
+            add(set, i, i + all.width(), pixel.dy, components_at(components_dy_, at));
     }
 }
 
 /// Updates running means, which cannot overflow as sums can. The sets of the first position set the weights; the
 /// sets of other positions add with the same weights.
-void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts) {
+void SetMeans::add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean,
+                   std::span<Rgb> components) {
     const auto pixels = static_cast<float>(set.size());
     if (set.position == 0)
         mean.pixels += pixels;
     const float share = pixels / mean.pixels, kept = set.position == 0 ? 1 - share : 1;
     const auto move = [=](Rgb& value, Rgb here, Rgb there) { value = value * kept + (there - here) * share; };
     move(mean.value, from ? set.coefficient(*from) : Rgb(0), set.coefficient(to));
-    for (std::size_t l = 0; l < parts.size(); ++l)
-        move(parts[l], from ? set.parts_of(*from)[l] : Rgb(0), set.parts_of(to)[l]);
+    for (std::size_t l = 0; l < components.size(); ++l)
+        move(components[l], from ? set.components_of(*from)[l] : Rgb(0), set.components_of(to)[l]);
 }
 
 /// To be called after add() of the primal.
@@ -86,7 +88,7 @@ void SetMeans::take_primal(int x, int y, PixelSample& sample) const {
     const std::size_t at = index(x, y);
     const Pixel& pixel = pixels_[at];
     sample.primal = pixel.primal.value;
-    sample.parts = parts_at(parts_, at);
+    sample.components = components_at(components_, at);
     if (!pixel.is_mixed)
         return;
     sample.very_direct = pixel.seen.very_direct;
@@ -98,8 +100,8 @@ void SetMeans::take_gradients(int x, int y, PixelSample& sample) const {
     const Pixel& pixel = pixels_[at];
     sample.dx = pixel.dx.value;
     sample.dy = pixel.dy.value;
-    sample.parts_dx = parts_at(parts_dx_, at);
-    sample.parts_dy = parts_at(parts_dy_, at);
+    sample.components_dx = components_at(components_dx_, at);
+    sample.components_dy = components_at(components_dy_, at);
 }
 
 } // namespace tessera

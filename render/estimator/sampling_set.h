@@ -32,7 +32,8 @@ struct SamplingSet {
     int number = 0;         ///< index among several paths of a pixel without reuse (Pass::camera_sample)
     float offset_rays = 0;  ///< mean number of rays per offset path, for one position (Counters::offset_work)
     ArrivingLight arriving; ///< if the basis has components
-    std::vector<Rgb> parts; ///< basis components of the coefficients, part_count() per pixel, after expand()
+    std::vector<Rgb>
+        components; ///< basis components of the coefficients, component_count() per pixel, after expand()
 
     int size() const { return static_cast<int>(pixels.size()); }
 
@@ -52,9 +53,9 @@ struct SamplingSet {
     Rgb coefficient(int i) const { return tessera::coefficient(radiance[i], albedo[i]); }
     /// Computes all basis components, METHODS (31), if the basis has any.
     void expand(const Film& film);
-    std::span<const Rgb> parts_of(int i) const {
-        const auto count = static_cast<std::size_t>(arriving.parts());
-        return {parts.data() + static_cast<std::size_t>(i) * count, count};
+    std::span<const Rgb> components_of(int i) const {
+        const auto count = static_cast<std::size_t>(arriving.components());
+        return {components.data() + static_cast<std::size_t>(i) * count, count};
     }
     /// Counts the outcomes of the shifts of base path k; empty: no shift was tried.
     void count(std::span<const ShiftOutcome> outcomes, int k);
@@ -71,7 +72,7 @@ struct SamplingSet {
 class SetMeans {
 public:
     /// @param parts  number of basis components
-    void begin(PixelRect area, int parts);
+    void begin(PixelRect area, int components);
     /// Adds the results of a set for its pixels in the block.
     /// @param all  rectangle of the set's pixels, row by row; empty: the set has no gradients
     void add(const SamplingSet& set, PixelRect all);
@@ -84,8 +85,8 @@ public:
     void take_primal(int x, int y, PixelSample& sample) const;
     void take_gradients(int x, int y, PixelSample& sample) const;
     /// Returns the memory per pixel.
-    static std::size_t bytes(int parts) {
-        return sizeof(Pixel) + 3 * static_cast<std::size_t>(parts) * sizeof(Rgb);
+    static std::size_t bytes(int components) {
+        return sizeof(Pixel) + 3 * static_cast<std::size_t>(components) * sizeof(Rgb);
     }
 
 private:
@@ -107,21 +108,22 @@ private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>((y - area_.y0) * area_.width() + x - area_.x0);
     }
-    std::span<Rgb> parts_at(std::vector<Rgb>& parts, std::size_t pixel) {
-        return {parts.data() + pixel * part_count_, part_count_};
+    std::span<Rgb> components_at(std::vector<Rgb>& components, std::size_t pixel) {
+        return {components.data() + pixel * component_count_, component_count_};
     }
-    std::span<const Rgb> parts_at(const std::vector<Rgb>& parts, std::size_t pixel) const {
-        return {parts.data() + pixel * part_count_, part_count_};
+    std::span<const Rgb> components_at(const std::vector<Rgb>& components, std::size_t pixel) const {
+        return {components.data() + pixel * component_count_, component_count_};
     }
     /// Adds the result of entry `to`, minus that of entry `from` if there is one.
-    static void add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean, std::span<Rgb> parts);
+    static void add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean,
+                    std::span<Rgb> components);
     /// Adds what entry i sees from the current position.
     static void see(const SamplingSet& set, int i, Pixel& pixel);
 
     PixelRect area_{0, 0, 0, 0};
-    std::size_t part_count_ = 0;
+    std::size_t component_count_ = 0;
     std::vector<Pixel> pixels_;
-    std::vector<Rgb> parts_, parts_dx_, parts_dy_;
+    std::vector<Rgb> components_, components_dx_, components_dy_;
 };
 
 } // namespace tessera

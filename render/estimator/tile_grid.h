@@ -41,16 +41,16 @@ public:
     /// Returns the number of base paths of a pixel that reuses no paths; 0: it reuses paths.
     int paths_alone_at(glm::ivec2 pixel) const;
 
-    /// Calls `visit(split, paths_alone)` for all nonempty splits of the tiles of a block, clipped to the image.
-    /// See LearnedReuse::paths_alone.
+    /// Calls `visit(split, paths_without_reuse)` for all nonempty splits of the tiles of a block, clipped to the
+    /// image. See LearnedReuse::paths_without_reuse.
     template <class Visit>
     void for_each_split(PixelRect block, Visit&& visit) const {
         for_each_square(block, settings_.tile, [&](PixelRect tile) {
             learned_.for_each_piece(tile, [&](PixelRect piece) {
-                const int paths_alone = learned_.paths_alone(piece);
+                const int paths_without_reuse = learned_.paths_without_reuse(piece);
                 for_each_square(piece, learned_.split_edge(piece), [&](PixelRect split) {
                     if (const PixelRect inner = split.clipped(size); !inner.empty())
-                        visit(inner, paths_alone);
+                        visit(inner, paths_without_reuse);
                 });
             });
         });
@@ -128,7 +128,7 @@ inline PixelRect TileGrid::split_at(glm::ivec2 pixel) const {
 }
 
 inline int TileGrid::paths_alone_at(glm::ivec2 pixel) const {
-    return learned_.paths_alone(piece_at(pixel));
+    return learned_.paths_without_reuse(piece_at(pixel));
 }
 
 inline void TileGrid::shuffle_columns(PixelRect tile, std::vector<int>& columns) const {

@@ -10,8 +10,8 @@ std::uint64_t Worker::bytes(const RenderSettings& settings) {
     const std::uint64_t paths = settings.method == Method::pt ? 1 : edge * edge;
     const auto vertices = static_cast<std::uint64_t>(std::min(settings.max_depth, long_path));
     constexpr std::uint64_t a_vertex = sizeof(BaseVertex) + sizeof(LightSample);
-    const std::size_t means = (finds_gain_of_sharing(settings) ? sizeof(MeanOfPaths) : 0) +
-                              (settings.method != Method::pt ? SetMeans::bytes(part_count(settings)) : 0);
+    const std::size_t means = (measures_reuse_gain(settings) ? sizeof(MeanOfPaths) : 0) +
+                              (settings.method != Method::pt ? SetMeans::bytes(component_count(settings)) : 0);
     const std::uint64_t a_first_vertex = has_positions(settings) ? sizeof(BasePath) + a_vertex : 0;
     return sizeof(Worker) + paths * (sizeof(BasePath) + means + vertices * a_vertex + a_first_vertex);
 }

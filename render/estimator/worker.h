@@ -40,9 +40,9 @@ struct Worker {
     BaseBlock base;
     BasePath path;
     SamplingSet set;
-    SetMeans set_means;         ///< of the block
-    ArrivingLight own;          ///< of one base path
-    std::vector<Rgb> own_parts; ///< its basis components
+    SetMeans set_means;              ///< of the block
+    ArrivingLight own;               ///< of one base path
+    std::vector<Rgb> own_components; ///< its basis components
 };
 
 } // namespace tessera

@@ -21,7 +21,7 @@ std::string_view to_string(RayKind kind) {
     return names[static_cast<int>(kind)];
 }
 
-void FirstRefused::add(const RefusedSample& sample) {
+void FirstInvalid::add(const InvalidSample& sample) {
     const auto end = samples_.begin() + static_cast<std::ptrdiff_t>(count_);
     const auto at = std::lower_bound(samples_.begin(), end, sample);
     if (at == samples_.end() || (at != end && *at == sample))
@@ -31,15 +31,15 @@ void FirstRefused::add(const RefusedSample& sample) {
     count_ = std::min(count_ + 1, most);
 }
 
-void Counters::refuse(const RefusedSample& sample) {
+void Counters::refuse(const InvalidSample& sample) {
     ++refused_samples;
-    first_refused.add(sample);
+    first_invalid.add(sample);
 }
 
-std::string refused_text(const Counters& counters, std::uint64_t seed) {
-    if (counters.first_refused.list().empty())
+std::string invalid_text(const Counters& counters, std::uint64_t seed) {
+    if (counters.first_invalid.list().empty())
         return {};
-    const RefusedSample& first = counters.first_refused.list().front();
+    const InvalidSample& first = counters.first_invalid.list().front();
     return fmt::format(
         "{} samples were not finite and were left out; the first is pass {}, pixel ({}, {}), seed {}",
         counters.refused_samples, first.pass, first.x, first.y, seed);
@@ -57,8 +57,8 @@ Counters& Counters::operator+=(const Counters& other) {
     for (std::size_t i = 0; i < shifts.size(); ++i)
         shifts[i] += other.shifts[i];
     refused_samples += other.refused_samples;
-    for (const RefusedSample& sample : other.first_refused.list())
-        first_refused.add(sample);
+    for (const InvalidSample& sample : other.first_invalid.list())
+        first_invalid.add(sample);
     return *this;
 }
 

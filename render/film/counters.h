@@ -44,23 +44,23 @@ inline constexpr int ray_kind_count = static_cast<int>(RayKind::count);
 std::string_view to_string(RayKind kind);
 
 /// An invalid sample: pass and pixel, from 0. With the seed, its path can be traced again.
-struct RefusedSample {
+struct InvalidSample {
     int pass, y, x;
 
-    auto operator<=>(const RefusedSample&) const = default;
+    auto operator<=>(const InvalidSample&) const = default;
 };
 
 /// The first few invalid samples, in order and each of them once. The result does not depend on the order of
 /// add().
-class FirstRefused {
+class FirstInvalid {
 public:
     static constexpr std::size_t most = 16;
 
-    void add(const RefusedSample& sample);
-    std::span<const RefusedSample> list() const { return {samples_.data(), count_}; }
+    void add(const InvalidSample& sample);
+    std::span<const InvalidSample> list() const { return {samples_.data(), count_}; }
 
 private:
-    std::array<RefusedSample, most> samples_{};
+    std::array<InvalidSample, most> samples_{};
     std::size_t count_ = 0;
 };
 
@@ -79,7 +79,7 @@ struct Counters {
     std::array<std::uint64_t, shift_outcome_count> shifts{}; ///< by outcome
 
     std::uint64_t refused_samples = 0; ///< invalid samples, which the film rejects
-    FirstRefused first_refused;
+    FirstInvalid first_invalid;
 
     std::uint64_t shift_attempts() const {
         return std::accumulate(shifts.begin(), shifts.end(), std::uint64_t{0});
@@ -92,14 +92,14 @@ struct Counters {
     std::uint64_t all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
     std::uint64_t set_paths() const { return dark_paths + skipped_paths + reused_paths; }
 
-    void refuse(const RefusedSample& sample);
+    void refuse(const InvalidSample& sample);
 
     Counters& operator+=(const Counters& other);
 };
 
 /// Returns a message about invalid samples: "3 samples were not finite and were left out; the first is pass 5,
 /// pixel (7, 2), seed 0"; empty without such samples.
-std::string refused_text(const Counters& counters, std::uint64_t seed);
+std::string invalid_text(const Counters& counters, std::uint64_t seed);
 
 /// Outcomes of path reuse at one pixel.
 struct ReuseCounts {

@@ -55,7 +55,7 @@ std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
     const std::size_t a_pixel =
         sizeof(PixelSums) + (buffers.gradients ? sizeof(GradientSums) : 0) +
         (buffers.albedo ? sizeof(AlbedoSums) + (buffers.means ? sizeof(glm::dvec3) : 0) : 0) +
-        static_cast<std::size_t>(buffers.parts) * (sizeof(Part) + sizeof(float)) +
+        static_cast<std::size_t>(buffers.components) * (sizeof(Component) + sizeof(float)) +
         (buffers.reuse ? sizeof(ReuseCounts) : 0) + (buffers.luminance ? sizeof(float) : 0) +
         (buffers.lamp_edges ? 1 : 0);
     return PixelFeatures::bytes(width, height) +
@@ -63,8 +63,8 @@ std::uint64_t Film::bytes(int width, int height, const FilmBuffers& buffers) {
 }
 
 Film::Film(int width, int height, const FilmBuffers& buffers)
-    : buffers_(buffers), pixels_(width, height), parts_(width * buffers.parts, height),
-      projections_(width * buffers.parts, height), features_(width, height, buffers.albedo) {
+    : buffers_(buffers), pixels_(width, height), components_(width * buffers.components, height),
+      projections_(width * buffers.components, height), features_(width, height, buffers.albedo) {
     if (buffers.gradients)
         gradients_ = Image<GradientSums>(width, height);
     if (buffers.albedo) {
@@ -84,20 +84,20 @@ bool Film::is_good(const PixelSample& sample) const {
     const auto all_finite = [](std::span<const Rgb> values) { return std::ranges::all_of(values, is_finite); };
     return is_finite(sample.primal) && is_finite(sample.dx) && is_finite(sample.dy) &&
            is_finite(sample.very_direct) && is_finite(sample.albedo) && is_finite(sample.beside) &&
-           all_finite(sample.parts) && all_finite(sample.parts_dx) && all_finite(sample.parts_dy);
+           all_finite(sample.components) && all_finite(sample.components_dx) && all_finite(sample.components_dy);
 }
 
-void Film::add_parts(int x, int y, const PixelSample& sample) {
-    Part* parts = parts_.row(y) + x * buffers_.parts;
-    for (std::size_t l = 0; l < sample.parts.size(); ++l)
-        parts[l].primal += sample.parts[l];
-    for (std::size_t l = 0; l < sample.parts_dx.size(); ++l)
-        parts[l].dx += sample.parts_dx[l];
-    for (std::size_t l = 0; l < sample.parts_dy.size(); ++l)
-        parts[l].dy += sample.parts_dy[l];
+void Film::add_components(int x, int y, const PixelSample& sample) {
+    Component* components = components_.row(y) + x * buffers_.components;
+    for (std::size_t l = 0; l < sample.components.size(); ++l)
+        components[l].primal += sample.components[l];
+    for (std::size_t l = 0; l < sample.components_dx.size(); ++l)
+        components[l].dx += sample.components_dx[l];
+    for (std::size_t l = 0; l < sample.components_dy.size(); ++l)
+        components[l].dy += sample.components_dy[l];
 }
 
-void Film::remember_if_brightest(int x, int y, int pass, const PixelSample& sample) {
+void Film::keep_if_brightest(int x, int y, int pass, const PixelSample& sample) {
     Brightest found{sample.primal, x + 1 < width() ? sample.dx : Rgb(0), y + 1 < height() ? sample.dy : Rgb(0),
                     sample.albedo, sign_of(pass)};
     for (int c = 0; c < 3; ++c) // includes `beside`, so primal times albedo is the sample's radiance
@@ -123,7 +123,7 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     PixelSums& sums = pixels_(x, y);
     sums.paths += static_cast<std::uint32_t>(sample.paths);
     sums.primal += sample.primal;
-    remember_if_brightest(x, y, pass, sample);
+    keep_if_brightest(x, y, pass, sample);
     sums.half_primal += sign * sample.primal;
     sums.very_direct += sample.very_direct;
     if (!albedos_.empty()) {
@@ -134,7 +134,7 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     }
     if (gradients_.empty())
         return;
-    add_parts(x, y, sample);
+    add_components(x, y, sample);
     // The last column and row have no neighbour: their gradients stay 0.
     GradientSums& gradients = gradients_(x, y);
     if (x + 1 < width()) {
@@ -152,7 +152,7 @@ void Film::add(const Film& other) {
     add_entries(gradients_, other.gradients_);
     add_entries(albedos_, other.albedos_);
     add_entries(beside_, other.beside_);
-    add_entries(parts_, other.parts_);
+    add_entries(components_, other.components_);
     add_entries(reuse_, other.reuse_);
     balance_ += other.balance_;
     features_.take_more_of(other.features_);
@@ -198,7 +198,7 @@ void Film::find_lamp_edges(const RgbImage& lamps) {
 
 Memory Film::memory() {
     Memory memory{memory_of(pixels_),     memory_of(gradients_),   memory_of(albedos_), memory_of(beside_),
-                  memory_of(parts_),      memory_of(projections_), memory_of(reuse_),   memory_of(luminance_),
+                  memory_of(components_), memory_of(projections_), memory_of(reuse_),   memory_of(luminance_),
                   memory_of(lamp_edges_), memory_of(balance_)};
     append(memory, features_.memory());
     return memory;

@@ -34,7 +34,7 @@ struct PixelSample {
 
     /// Basis components of primal, dx and dy (basis.h). The memory belongs to the caller. Empty without such a
     /// basis or without a neighbour.
-    std::span<const Rgb> parts{}, parts_dx{}, parts_dy{};
+    std::span<const Rgb> components{}, components_dx{}, components_dy{};
 
     /// Radiance minus primal times albedo. It is 0 unless the sample is a mean of several paths or positions,
     /// which have different albedos.
@@ -57,7 +57,7 @@ struct FilmBuffers {
     bool reuse = false;      ///< outcomes of shifts
     bool luminance = false;  ///< arriving luminance of the last pass, from which LearnedReuse learns
     bool lamp_edges = false; ///< edges of directly visible emitters
-    int parts = 0;           ///< basis components of primal and gradients
+    int components = 0;      ///< basis components of primal and gradients
     bool means = false;      ///< samples may be means (PixelSample::beside)
 };
 
@@ -112,9 +112,9 @@ public:
 
     /// Returns the projections s^l of a pixel, METHODS (30): FilmBuffers::parts numbers. set_projection() must set
     /// them before the pixel's first sample.
-    const float* projection(int x, int y) const { return projections_.row(y) + x * buffers_.parts; }
+    const float* projection(int x, int y) const { return projections_.row(y) + x * buffers_.components; }
     void set_projection(int x, int y, const float* numbers) {
-        std::copy_n(numbers, buffers_.parts, projections_.row(y) + x * buffers_.parts);
+        std::copy_n(numbers, buffers_.components, projections_.row(y) + x * buffers_.components);
     }
 
     /// Marks the pixels on both sides of every edge of `lamps`, an image of directly visible emission with one
@@ -136,10 +136,10 @@ public:
 
 private:
     /// Sums of one basis component.
-    struct Part {
+    struct Component {
         Moments primal, dx, dy;
 
-        void operator+=(const Part& other) {
+        void operator+=(const Component& other) {
             primal += other.primal;
             dx += other.dx;
             dy += other.dy;
@@ -193,10 +193,10 @@ private:
     };
 
     bool is_good(const PixelSample& sample) const;
-    void add_parts(int x, int y, const PixelSample& sample);
-    void remember_if_brightest(int x, int y, int pass, const PixelSample& sample);
+    void add_components(int x, int y, const PixelSample& sample);
+    void keep_if_brightest(int x, int y, int pass, const PixelSample& sample);
     HalfWeights half_weights(int passes) const;
-    std::vector<BasisComponent> part_means(int passes) const;
+    std::vector<BasisComponent> component_means(int passes) const;
     Demodulation demodulation(int passes) const;
     void measure_samples(std::size_t i, int passes, Demodulation& result) const;
     void measure_gradients(int passes, GradientImages& images) const;
@@ -207,7 +207,7 @@ private:
     Image<GradientSums> gradients_; ///< empty without gradients; so are those below without their buffers
     Image<AlbedoSums> albedos_;     ///< values are radiance
     Image<glm::dvec3> beside_;      ///< PixelSample::beside
-    Image<Part> parts_;             ///< FilmBuffers::parts adjacent entries per pixel
+    Image<Component> components_;   ///< FilmBuffers::parts adjacent entries per pixel
     Image<float> projections_;      ///< FilmBuffers::parts adjacent entries per pixel
     Image<ReuseCounts> reuse_;
     Image<float> luminance_;

@@ -63,7 +63,7 @@ Demodulation Film::demodulation(int passes) const {
         result.sampled_albedo.data()[i] = Rgb(albedos_.data()[i].albedo * scale);
         result.albedo.data()[i] = features_.albedo(i);
         result.albedo_variance.data()[i] = features_.albedo_variance(i);
-        result.sampled_share.data()[i] =
+        result.sampled_weight.data()[i] =
             static_cast<float>(samples / (samples + std::pow(features_.count(i), 1.5)));
         if (passes > 1)
             measure_samples(i, passes, result);
@@ -71,26 +71,26 @@ Demodulation Film::demodulation(int passes) const {
     return result;
 }
 
-std::vector<BasisComponent> Film::part_means(int passes) const {
+std::vector<BasisComponent> Film::component_means(int passes) const {
     const RgbImage black(width(), height());
     const Image<float> none = passes > 1 ? Image<float>(width(), height()) : Image<float>();
     std::vector<BasisComponent> result;
     const double scale = scale_of_means(passes);
-    for (int l = 0; l < buffers_.parts; ++l) {
-        BasisComponent& part =
+    for (int l = 0; l < buffers_.components; ++l) {
+        BasisComponent& component =
             result.emplace_back(Image<float>(width(), height()), black, black, black, none, none, none);
         for (int y = 0; y < height(); ++y)
             for (int x = 0; x < width(); ++x) {
-                const Part& sums = parts_(x * buffers_.parts + l, y);
-                part.projection(x, y) = projection(x, y)[l];
-                part.primal(x, y) = Rgb(sums.primal.sum * scale);
-                part.dx(x, y) = Rgb(sums.dx.sum * scale);
-                part.dy(x, y) = Rgb(sums.dy.sum * scale);
+                const Component& sums = components_(x * buffers_.components + l, y);
+                component.projection(x, y) = projection(x, y)[l];
+                component.primal(x, y) = Rgb(sums.primal.sum * scale);
+                component.dx(x, y) = Rgb(sums.dx.sum * scale);
+                component.dy(x, y) = Rgb(sums.dy.sum * scale);
                 if (passes < 2)
                     continue;
-                part.primal_variance(x, y) = variance_of(sums.primal, passes);
-                part.dx_variance(x, y) = variance_of(sums.dx, passes);
-                part.dy_variance(x, y) = variance_of(sums.dy, passes);
+                component.primal_variance(x, y) = variance_of(sums.primal, passes);
+                component.dx_variance(x, y) = variance_of(sums.dx, passes);
+                component.dy_variance(x, y) = variance_of(sums.dy, passes);
             }
     }
     return result;
@@ -164,7 +164,7 @@ void Film::measure_pixels(int passes, GradientImages& images) const {
 
 GradientImages Film::means(int passes) const {
     GradientImages images;
-    images.parts = part_means(passes);
+    images.components = component_means(passes);
     images.demodulation = demodulation(passes);
     images.features = features_.images();
     measure_gradients(passes, images);
@@ -176,8 +176,8 @@ GradientImages Film::take_means(int passes) {
     reuse_ = {};
     luminance_ = {};
     GradientImages images;
-    images.parts = part_means(passes);
-    parts_ = {};
+    images.components = component_means(passes);
+    components_ = {};
     images.demodulation = demodulation(passes);
     images.features = features_.images();
     albedos_ = {};

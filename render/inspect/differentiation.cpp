@@ -86,7 +86,7 @@ private:
 };
 
 bool is_plain_diffuse(const Vertex& x) {
-    return std::holds_alternative<Diffuse>(x.bsdf.kind) && !x.bsdf.is_bent() && !x.guide;
+    return std::holds_alternative<Diffuse>(x.bsdf.kind) && !x.bsdf.has_relief() && !x.guide;
 }
 
 bool is_constant(const Texture& texture) {

@@ -6,7 +6,7 @@
 #include "render/estimator/pilot.h"
 #include "render/estimator/pre_pass.h"
 #include "render/estimator/set_reuse.h"
-#include "render/inspect/onlooker.h"
+#include "render/inspect/observer.h"
 
 #include <algorithm>
 #include <bit>
@@ -32,7 +32,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     for (glm::ivec2 p : result.pixels)
         result.is_border.push_back(!inner.contains(p));
     worker.base.trace(pass, worker.tracer, bounds(result.pixels), {inner.x0, inner.y0}, worker.set.number);
-    Onlooker onlooker(worker, static_cast<float>(pass.index) + 1, pixel ? result.index_of(*pixel) : -1, result);
+    Observer observer(worker, static_cast<float>(pass.index) + 1, pixel ? result.index_of(*pixel) : -1, result);
     const bool is_alone = reuses_paths(pass.settings.method) && pass.grid.paths_alone_at(result.pixels[0]) > 0;
     SamplingSet& set = worker.set;
     set.positions = is_alone ? 1 : pass.positions_of(set.pixels);
@@ -40,7 +40,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
     for (set.position = 0; set.position < set.positions; ++set.position) {
         if (set.positions > 1)
             worker.base.see_from(pass, worker.tracer, set.position);
-        reuse_paths(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, onlooker);
+        reuse_paths(pass, is_alone ? RouletteKind::none : roulette_of(pass.settings), worker, observer);
         for (int m = 0; m < set.size(); ++m)
             result.coefficient[m] += set.coefficient(m);
     }
@@ -49,7 +49,7 @@ InspectedSet inspect_set(const Pass& pass, PixelRect inner, std::optional<glm::i
 
 /// Returns whether the film rejects a pixel's sample: its coefficient, or that of a neighbour in a gradient, is
 /// not finite.
-bool is_refused(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
+bool is_invalid(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings& settings) {
     const auto is_bad = [&](glm::ivec2 p) {
         const int m = set.index_of(p);
         return m >= 0 && !is_finite(set.coefficient[m]);
@@ -172,8 +172,8 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
     Worker worker(scene, camera, size, settings, learned.guiding());
     const CameraSample from = pass.base_sample(pixel);
     Inspection result{pixel, size, index, settings.method, from.lens, {}, Rgb(0), Rgb(0), false, {}};
-    const int paths_alone = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
-    const int paths = std::max(paths_alone, 1);
+    const int paths_without_reuse = reuses_paths(settings.method) ? pass.grid.paths_alone_at(pixel) : 0;
+    const int paths = std::max(paths_without_reuse, 1);
     std::vector<Hit> hits;
     for (int number = 0; number < paths; ++number) {
         // trace_pixel() would empty an invalid path.
@@ -187,16 +187,16 @@ Inspection inspect(const Scene& scene, const Camera& camera, glm::ivec2 size, co
             result.radiance = worker.path.radiance();
         }
         worker.tracer.hits = nullptr;
-        const Rgb very_direct = very_direct_of(pass, pixel, paths_alone > 0, number, worker);
+        const Rgb very_direct = very_direct_of(pass, pixel, paths_without_reuse > 0, number, worker);
         result.very_direct += very_direct / static_cast<float>(paths);
-        result.is_refused = result.is_refused || !is_finite(worker.path.radiance() + very_direct);
+        result.is_invalid = result.is_invalid || !is_finite(worker.path.radiance() + very_direct);
     }
     for_each_set_with(pass, pixel, worker.set,
                       [&](PixelRect inner) { result.sets.push_back(inspect_set(pass, inner, pixel, worker)); });
-    if (paths_alone > 0)
-        result.is_refused = result.is_refused || is_mean_refused(pass, pixel, worker);
+    if (paths_without_reuse > 0)
+        result.is_invalid = result.is_invalid || is_mean_refused(pass, pixel, worker);
     for (const InspectedSet& set : result.sets)
-        result.is_refused = result.is_refused || is_refused(set, pixel, settings);
+        result.is_invalid = result.is_invalid || is_invalid(set, pixel, settings);
     return result;
 }
 
@@ -259,7 +259,7 @@ std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const Pass& pass, std::s
 LearnedReuse replay_learning(const Scene& scene, const Camera& camera, glm::ivec2 size,
                              const RenderSettings& settings, int pass, glm::ivec2 pixel, std::stop_token stop) {
     LearnedReuse learned(size, settings);
-    const bool splits = settings.adapt_tile && has_tiles_to_cut(settings) && settings.tile > 1;
+    const bool splits = settings.adapt_tile && can_split_tiles(settings) && settings.tile > 1;
     if (learned.wants_pilot()) {
         Worker worker(scene, camera, size, settings, nullptr);
         const Pilot pilot(scene, camera, size, settings, learned);

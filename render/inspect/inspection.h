@@ -4,7 +4,7 @@
 #include "render/estimator/reuse_roulette.h"
 #include "render/film/counters.h"
 #include "render/inspect/path_differentials.h"
-#include "render/paths/shift_onlooker.h"
+#include "render/paths/shift_observer.h"
 #include "render/settings/settings.h"
 
 #include <optional>
@@ -21,7 +21,7 @@ class Scene;
 struct Camera;
 
 /// A vertex, for display.
-struct SeenVertex {
+struct DisplayVertex {
     glm::vec3 position;
     glm::vec3 normal;      ///< shading normal, unit
     std::string_view bsdf; ///< kind_name()
@@ -35,7 +35,7 @@ struct InspectedLight {
 };
 
 /// A vertex of a base path. Densities are those of BaseVertex; radiances are toward the previous vertex.
-struct InspectedVertex : SeenVertex {
+struct InspectedVertex : DisplayVertex {
     bool goes_on;      ///< to a next vertex or the environment; otherwise the next four members have no meaning
     bool escapes;      ///< to the environment
     glm::vec3 to_next; ///< unit, world space
@@ -53,7 +53,7 @@ struct InspectedVertex : SeenVertex {
 /// One vertex of a shifted light path, with the numbers of the shift. Steps of the base path in its own pixel have
 /// a Jacobian and a ratio of 1.
 struct InspectedStep {
-    SeenVertex vertex;
+    DisplayVertex vertex;
     bool is_joined;        ///< a vertex of the base path beyond the reconnection
     OffsetStep shifted;    ///< the value of the last step includes the light
     Footprint footprint{}; ///< scalar footprint, a square
@@ -112,7 +112,7 @@ struct Inspection {
     std::vector<InspectedVertex> path; ///< x_1, x_2, ...; empty: the camera ray leaves the scene
     Rgb radiance;                      ///< of the pixel's own base path, without directly visible emission
     Rgb very_direct;
-    bool is_refused; ///< the film rejects the sample: radiance or a gradient is not finite
+    bool is_invalid; ///< the film rejects the sample: radiance or a gradient is not finite
     /// Sets that contain the pixel: one for each gradient with G-PT, including those of the neighbours on the left
     /// and above; one for each base path in a pixel without reuse; otherwise one.
     std::vector<InspectedSet> sets;

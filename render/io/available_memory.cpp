@@ -95,11 +95,11 @@ constexpr std::uint64_t smallest_checked = 1 << 20; // bytes; smaller requests s
 
 } // namespace
 
-bool is_memory_free(std::uint64_t bytes) {
+bool has_free_memory(std::uint64_t bytes) {
     return bytes < smallest_checked || bytes <= available_memory();
 }
 
-void ask_for_memory(std::uint64_t bytes, const std::string& what) {
+void require_memory(std::uint64_t bytes, const std::string& what) {
     if (bytes < smallest_checked)
         return;
     const std::uint64_t available = available_memory();

@@ -19,10 +19,10 @@ public:
 /// when memory runs out. Throws OutOfMemory, such as "8192x8192 pixels of gpr need 12.1 GiB of memory, and 7.0
 /// GiB are free", if the machine, the control group or the address space limit (ulimit -v) leaves fewer bytes.
 /// `what` is in the plural.
-void ask_for_memory(std::uint64_t bytes, const std::string& what);
+void require_memory(std::uint64_t bytes, const std::string& what);
 
 /// Returns whether that many bytes are free, for an optional allocation.
-bool is_memory_free(std::uint64_t bytes);
+bool has_free_memory(std::uint64_t bytes);
 
 /// Calls `work` and returns its result. Turns std::bad_alloc into OutOfMemory: "there is not enough memory for
 /// loading box.xml", where `what` is "loading box.xml".

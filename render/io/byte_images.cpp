@@ -36,7 +36,7 @@ namespace {
 ByteImage image_of(std::int64_t width, std::int64_t height, std::size_t file_bytes) {
     check_image_size(width, height, file_bytes);
     const auto bytes = 3 * static_cast<std::uint64_t>(width * height);
-    ask_for_memory(2 * bytes, "its pixels"); // the pixels, and the decoder's copy
+    require_memory(2 * bytes, "its pixels"); // the pixels, and the decoder's copy
     return {static_cast<int>(width), static_cast<int>(height), std::vector<std::uint8_t>(bytes)};
 }
 
@@ -68,7 +68,7 @@ public:
     bool read_header() {
         if (setjmp(png_jmpbuf(png_)) != 0)
             return false;
-        png_set_user_limits(png_, most_image_edge, most_image_edge);
+        png_set_user_limits(png_, max_image_edge, max_image_edge);
         png_set_read_fn(png_, this, read);
         png_read_info(png_, info_);
         png_set_strip_16(png_);

@@ -143,7 +143,7 @@ Size size_of(const Imath::Box2i& window, std::uintmax_t file_bytes) {
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 
-void read_rows(Imf::InputPart& part, int first, int last, const ReadWatch& watch) {
+void read_rows(Imf::InputPart& part, int first, int last, const ReadProgress& watch) {
     const auto row = [&](std::int64_t n) { return static_cast<int>(std::min<std::int64_t>(first + n, last)); };
     const std::int64_t count = std::int64_t{last} - first + 1;
     for (std::int64_t done = 0; done < count; done += rows_per_call) {
@@ -168,7 +168,7 @@ void ask_for_layers(const Imf::Header& header, Size size, std::size_t layers) {
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         ++channels;
     const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
-    ask_for_memory(sizeof(Rgb) * width * height * layers +
+    require_memory(sizeof(Rgb) * width * height * layers +
                        2 * sizeof(float) * width * std::min(height, max_rows_per_chunk) * channels,
                    "its pixels");
 }
@@ -176,7 +176,7 @@ void ask_for_layers(const Imf::Header& header, Size size, std::size_t layers) {
 /// Selects the layers to read from those of the file.
 using LayerChoice = std::function<std::vector<LayerName>(const std::vector<LayerName>& available)>;
 
-ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, const ReadWatch& watch,
+ExrFile read_layers(Imf::MultiPartInputFile& input, std::uintmax_t file_bytes, const ReadProgress& watch,
                     const LayerChoice& choose) {
     Imf::InputPart part(input, 0);
     const Imf::Header& header = part.header();
@@ -264,7 +264,7 @@ bool is_exr(std::string_view bytes) {
     return bytes.starts_with("\x76\x2f\x31\x01");
 }
 
-RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch) {
+RgbImage parse_exr_picture(std::string_view bytes, const ReadProgress& watch) {
     MemoryStream stream(bytes);
     Imf::MultiPartInputFile input(stream);
     ExrFile file = read_layers(input, bytes.size(), watch, [](const std::vector<LayerName>& available) {
@@ -273,7 +273,7 @@ RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch) {
     return std::move(file.layers.front().image);
 }
 
-ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch,
+ExrFile read_exr(const std::filesystem::path& path, const ReadProgress& watch,
                  const std::vector<std::string>& names) {
     try {
         open_file(path); // throws with a better reason than OpenEXR

@@ -42,14 +42,14 @@ const RgbImage& require_layer(const ExrFile& file, const std::string& name, cons
 void write_exr(const std::filesystem::path& path, const ExrFile& file);
 
 /// Callback during reading. Receives the fraction done, in [0, 1], and returns false to cancel.
-using ReadWatch = std::function<bool(float fraction)>;
+using ReadProgress = std::function<bool(float fraction)>;
 
 /// Reads the first part of a file: layers with channels R, G and B (a lone plain Y is grey), named layers with
 /// X, Y and Z, every other channel but alpha as a layer of its own, and the header's string attributes. `names`
 /// selects layers, as far as the file has them; empty: all. Layers not selected take no memory. Throws
 /// std::runtime_error that names the file, also if there is no R, G and B, if `watch` (may be empty) cancels,
-/// and if memory is short (ask_for_memory).
-ExrFile read_exr(const std::filesystem::path& path, const ReadWatch& watch = {},
+/// and if memory is short (require_memory).
+ExrFile read_exr(const std::filesystem::path& path, const ReadProgress& watch = {},
                  const std::vector<std::string>& names = {});
 
 /// Returns whether the bytes have the signature of OpenEXR.
@@ -57,7 +57,7 @@ bool is_exr(std::string_view bytes);
 
 /// Reads the plain layer of an OpenEXR file in memory, or its first RGB layer if there is no plain one. Throws
 /// as read_exr() does, without a file name.
-RgbImage parse_exr_picture(std::string_view bytes, const ReadWatch& watch);
+RgbImage parse_exr_picture(std::string_view bytes, const ReadProgress& watch);
 
 /// Reads the string attributes only. Throws std::runtime_error that names the file.
 std::map<std::string, std::string> read_exr_attributes(const std::filesystem::path& path);

@@ -44,10 +44,10 @@ std::string size_text(std::int64_t width, std::int64_t height) {
 void check_image_size(std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
         throw std::runtime_error("an image of " + size_text(width, height) + " is empty");
-    if (width > most_image_edge || height > most_image_edge || width * height > most_image_pixels)
+    if (width > max_image_edge || height > max_image_edge || width * height > max_image_pixels)
         throw std::runtime_error("an image of " + size_text(width, height) + " is too large: at most " +
-                                 std::to_string(most_image_edge) + " pixels along an edge, and " +
-                                 std::to_string(most_image_pixels) + " in all");
+                                 std::to_string(max_image_edge) + " pixels along an edge, and " +
+                                 std::to_string(max_image_pixels) + " in all");
 }
 
 void check_image_size(std::int64_t width, std::int64_t height, std::uintmax_t file_bytes) {
@@ -81,7 +81,7 @@ std::string read_bytes(const std::filesystem::path& file) {
     const std::streamoff size = stream.tellg();
     if (size < 0)
         throw std::runtime_error("the file cannot be read");
-    ask_for_memory(static_cast<std::uint64_t>(size), "the bytes of the file");
+    require_memory(static_cast<std::uint64_t>(size), "the bytes of the file");
     std::string bytes(static_cast<std::size_t>(size), '\0');
     stream.seekg(0);
     if (!stream.read(bytes.data(), size))
@@ -195,11 +195,11 @@ void TemporaryFile::commit() {
     if (const int error = sync_to_disk(temporary_))
         throw std::filesystem::filesystem_error("cannot be written", final_, {error, std::generic_category()});
     std::filesystem::rename(temporary_, final_);
-    write_through_folder(folder_of(final_));
+    sync_folder(folder_of(final_));
     temporary_.clear();
 }
 
-void write_through_folder(const std::filesystem::path& folder) {
+void sync_folder(const std::filesystem::path& folder) {
     sync_to_disk(folder); // an error is ignored: the folder may be unreadable
 }
 

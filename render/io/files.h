@@ -23,8 +23,8 @@ std::string extension_of(const std::filesystem::path& file);
 
 /// Largest image that is rendered, written or read, in any format. Byte counts of 8-bit RGB then fit the int
 /// that the PNG encoder uses.
-inline constexpr int most_image_edge = 32768;
-inline constexpr std::int64_t most_image_pixels = std::int64_t{1} << 28;
+inline constexpr int max_image_edge = 32768;
+inline constexpr std::int64_t max_image_pixels = std::int64_t{1} << 28;
 
 /// Throws std::runtime_error with the reason if no image may have that size (in pixels).
 void check_image_size(std::int64_t width, std::int64_t height);
@@ -61,7 +61,7 @@ private:
 void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// Syncs a folder, so that its last creations and renames survive a power cut, if the file system supports it.
-void write_through_folder(const std::filesystem::path& folder);
+void sync_folder(const std::filesystem::path& folder);
 
 /// Throws std::runtime_error that names the file if it cannot be written. Call it before a render, not only
 /// after. Changes no other file.

@@ -78,7 +78,7 @@ private:
     std::string_view text_;
 };
 
-/// Returns the offset at which a text, JSON or not, exceeds deepest_json; npos: nowhere.
+/// Returns the offset at which a text, JSON or not, exceeds max_json_depth; npos: nowhere.
 std::size_t too_deep(std::string_view text) {
     int depth = 0;
     bool in_string = false;
@@ -88,7 +88,7 @@ std::size_t too_deep(std::string_view text) {
             in_string = !in_string;
         else if (in_string)
             at += c == '\\';
-        else if ((c == '{' || c == '[') && ++depth > deepest_json)
+        else if ((c == '{' || c == '[') && ++depth > max_json_depth)
             return at;
         else if (c == '}' || c == ']')
             --depth;
@@ -97,7 +97,7 @@ std::size_t too_deep(std::string_view text) {
 }
 
 std::string deep_message() {
-    return fmt::format("objects and arrays are nested more than {} deep", deepest_json);
+    return fmt::format("objects and arrays are nested more than {} deep", max_json_depth);
 }
 
 std::size_t line_begin(const std::string& text, std::size_t offset) {

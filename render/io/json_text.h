@@ -16,7 +16,7 @@ std::string to_text(const nlohmann::ordered_json& value, int indent = -1);
 
 /// Largest nesting depth of objects and arrays that is read. Each level takes stack space of recursive readers.
 /// Not tuned.
-inline constexpr int deepest_json = 100;
+inline constexpr int max_json_depth = 100;
 
 /// Parses text that Tessera may have written, such as a header's. Null: it is invalid or nested too deep.
 nlohmann::json parse_json(std::string_view text);

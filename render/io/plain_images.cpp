@@ -38,7 +38,7 @@ void append(void* bytes, void* data, int size) {
 }
 
 // The encoder counts bytes in an int, with one extra byte a row.
-static_assert(3 * most_image_pixels + most_image_edge <= std::numeric_limits<int>::max());
+static_assert(3 * max_image_pixels + max_image_edge <= std::numeric_limits<int>::max());
 
 std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> rgb) {
     check_image_size(size.x, size.y);

@@ -105,7 +105,7 @@ RgbImage parse_radiance(std::string_view encoded, const std::function<bool()>& k
         static_cast<std::size_t>(used) != resolution.size())
         throw std::runtime_error("its rows do not run from the top left: \"" + resolution.substr(0, 40) + "\"");
     check_image_size(width, height, encoded.size());
-    ask_for_memory(sizeof(Rgb) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
+    require_memory(sizeof(Rgb) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
                    "its pixels");
     RgbImage image(width, height);
     std::vector<Rgbe> row(static_cast<std::size_t>(width));

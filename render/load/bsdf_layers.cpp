@@ -65,7 +65,7 @@ Texture nested_texture(LoadContext& context, Properties& p) {
 }
 
 void set_relief(const LoadContext& context, Properties& p, Material& material, Relief relief) {
-    relief.softens_terminator = p.boolean("use_shadowing_function", !context.old_syntax);
+    relief.use_shadowing_function = p.boolean("use_shadowing_function", !context.old_syntax);
     p.ignore({"flip_invalid_normals"}); // such directions are always black in Tessera
     if (material.relief)
         p.note("the bump or normal map inside this one is left out");
@@ -226,7 +226,7 @@ Material read_blend(LoadContext& context, Properties& p) {
     nested.resize(2, nested[0]);
     Material material = mixture_of(context, p, nested);
     auto& mixture = std::get<MixtureMaterial>(material.kind);
-    mixture.second_share = grey_parameter(context, p, "weight", 0.5f);
+    mixture.blend_weight = grey_parameter(context, p, "weight", 0.5f);
     return material;
 }
 

@@ -39,7 +39,7 @@ Rgb triple(const XmlElement& element) {
     return {values[0], values[1], values[2]};
 }
 
-Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& samples, SpectrumOf what) {
+Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& samples, SpectrumKind what) {
     for (std::size_t i = 1; i < samples.size(); ++i)
         if (!(samples[i].x > samples[i - 1].x))
             element.fail("the wavelengths of a spectrum must increase", "value");
@@ -50,7 +50,7 @@ Rgb color_of_samples(const XmlElement& element, const std::vector<glm::vec2>& sa
 }
 
 /// Reads a spectrum such as "400:0.2, 500:0.3" (nm:value).
-Rgb color_of_list(const XmlElement& element, std::string text, SpectrumOf what) {
+Rgb color_of_list(const XmlElement& element, std::string text, SpectrumKind what) {
     std::replace(text.begin(), text.end(), ':', ' ');
     const auto values = parse_numbers(text);
     if (!values || values->empty() || values->size() % 2 != 0)
@@ -83,7 +83,7 @@ Rgb black_body(const XmlElement& element) {
 }
 
 /// Reads `values` at `wavelengths`, or evenly from `wavelength_min` to `wavelength_max` (Mitsuba 3; nm).
-Rgb color_of_arrays(Properties& p, SpectrumOf what) {
+Rgb color_of_arrays(Properties& p, SpectrumKind what) {
     const auto values = parse_numbers(p.text("values", ""));
     auto wavelengths = parse_numbers(p.text("wavelengths", ""));
     if (p.type() == "regular" && values && wavelengths) {
@@ -102,7 +102,7 @@ Rgb color_of_arrays(Properties& p, SpectrumOf what) {
 }
 
 /// Reads a plugin <spectrum type="..."> of Mitsuba 3.
-Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumOf what) {
+Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumKind what) {
     Properties p(element, notes);
     Rgb color = fallback;
     if (p.type() == "uniform") {
@@ -131,7 +131,7 @@ bool is_color(const XmlElement& element) {
     return std::find(std::begin(tags), std::end(tags), element.tag()) != std::end(tags);
 }
 
-Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumOf what) {
+Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumKind what) {
     if (!is_color(element))
         element.fail("'" + element.attribute("name") + "' must be a colour, not <" + std::string(element.tag()) +
                      ">");
@@ -152,7 +152,7 @@ Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& n
     }
     const Rgb value = triple(element);
     // One number is a constant spectrum. Mitsuba 0.6 treats it as grey even for emission.
-    if (element.tag() == "spectrum" && what == SpectrumOf::emission && !is_of_version_0(element))
+    if (element.tag() == "spectrum" && what == SpectrumKind::emission && !is_mitsuba_0(element))
         return value * rgb_of_spectrum({{360, 1}, {830, 1}}, what);
     return element.tag() == "srgb" ? srgb_to_linear(value) : value;
 }

@@ -79,10 +79,10 @@ void read_spot(LoadContext& context, Properties& p) {
     light.position = glm::vec3(to_world[3]);
     light.axis = unit_parameter(p, "to_world", glm::vec3(to_world[2]));
     light.cutoff = p.number("cutoff_angle", 20);
-    light.full_within = p.number("beam_width", light.cutoff * 0.75f);
+    light.beam_width = p.number("beam_width", light.cutoff * 0.75f);
     if (!(light.cutoff > 0 && light.cutoff < 180))
         p.take("cutoff_angle")->fail("'cutoff_angle' must be between 0 and 180 degrees", "value");
-    if (!(light.full_within >= 0 && light.full_within <= light.cutoff))
+    if (!(light.beam_width >= 0 && light.beam_width <= light.cutoff))
         p.take("beam_width")->fail("'beam_width' must be between 0 and 'cutoff_angle'", "value");
     if (p.has("texture"))
         light.slide = read_slide(context, p, light.cutoff);

@@ -51,7 +51,7 @@ std::vector<fs::path> FileSearch::candidates_for(const XmlElement& element, cons
     return candidates;
 }
 
-std::optional<fs::path> FileSearch::find_if_there(const XmlElement& element, const char* attribute) const {
+std::optional<fs::path> FileSearch::find_optional(const XmlElement& element, const char* attribute) const {
     const std::vector<fs::path> candidates = candidates_for(element, attribute);
     std::error_code error;
     for (const fs::path& candidate : candidates)
@@ -64,7 +64,7 @@ std::optional<fs::path> FileSearch::find_if_there(const XmlElement& element, con
 }
 
 fs::path FileSearch::find_existing(const XmlElement& element, const char* attribute) const {
-    if (const std::optional<fs::path> found = find_if_there(element, attribute))
+    if (const std::optional<fs::path> found = find_optional(element, attribute))
         return *found;
     element.fail("there is no file '" + candidates_for(element, attribute).front().string() + "'", attribute);
 }
@@ -108,7 +108,7 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
         }
         progress.step();
     });
-    progress.check_wanted();
+    progress.throw_if_cancelled();
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
         const XmlElement& where = jobs_[i].where;
         const std::string file = "'" + where.attribute("value") + "'";
@@ -155,7 +155,7 @@ std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, 
     const auto parameter = properties.take("filename");
     if (!parameter)
         properties.element().fail("'" + properties.type() + "' needs a 'filename'");
-    if (strict || files.find_if_there(*parameter, "value"))
+    if (strict || files.find_optional(*parameter, "value"))
         return File{*parameter, files.find(*parameter, "value")};
     notes.push_back({parameter->position("value"),
                      "there is no file '" + parameter->required("value") + "': " + std::string(consequence),

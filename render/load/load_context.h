@@ -32,7 +32,7 @@ public:
     std::filesystem::path find(const XmlElement& element, const char* attribute) const;
     /// Returns the path of a file or folder, searched in the same way; empty: not found. Throws LoadError for
     /// an invalid name and for a scene in memory.
-    std::optional<std::filesystem::path> find_if_there(const XmlElement& element, const char* attribute) const;
+    std::optional<std::filesystem::path> find_optional(const XmlElement& element, const char* attribute) const;
 
     /// Adds the folder that a <path> names. Throws LoadError if there is none.
     void add_folder(const XmlElement& path);

@@ -106,8 +106,8 @@ std::string Properties::text(std::string_view parameter, const std::string& fall
     return element->required("value");
 }
 
-SpectrumOf Properties::spectrum_of() const {
-    return element_.tag() == "emitter" ? SpectrumOf::emission : SpectrumOf::reflectance;
+SpectrumKind Properties::spectrum_of() const {
+    return element_.tag() == "emitter" ? SpectrumKind::emission : SpectrumKind::reflectance;
 }
 
 Rgb Properties::color(std::string_view parameter, Rgb fallback) {

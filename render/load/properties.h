@@ -21,7 +21,7 @@ namespace tessera {
 /// Kind of quantity that a spectrum describes. A reflectance is converted under D65, the white of sRGB, so a
 /// constant one is grey. An emission is converted without an illuminant, as in Mitsuba 3, so a constant one
 /// (equal energy) is slightly reddish.
-enum class SpectrumOf { reflectance, emission };
+enum class SpectrumKind { reflectance, emission };
 
 /// A plugin's element, such as <bsdf type="...">, with its parameters. It records which parameters are read;
 /// report_unused() notes the others, so that everything in a file that is not understood is reported.
@@ -44,7 +44,7 @@ public:
     bool boolean(std::string_view parameter, bool fallback);
     std::string text(std::string_view parameter, const std::string& fallback);
     Rgb color(std::string_view parameter, Rgb fallback);
-    SpectrumOf spectrum_of() const; ///< emission for emitters, reflectance for all other plugins
+    SpectrumKind spectrum_of() const; ///< emission for emitters, reflectance for all other plugins
     glm::mat4 transform(std::string_view parameter);
     /// Returns the rotation in a transform. Translation and scaling are dropped, shear is dropped with a note.
     /// Throws LoadError for a singular transform.
@@ -88,7 +88,7 @@ bool is_color(const XmlElement& element);
 /// Returns a colour in linear sRGB. A spectrum given by wavelengths or by a plugin of Mitsuba 3 is converted,
 /// with a note. A spectrum in a file becomes the fallback, with a note. Throws LoadError for anything else.
 Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes,
-               SpectrumOf what = SpectrumOf::reflectance);
+               SpectrumKind what = SpectrumKind::reflectance);
 
 /// Returns the product of a <transform>'s steps (matrix, lookat, translate, rotate, scale). The first step acts
 /// on a point first. Throws LoadError.
@@ -107,7 +107,7 @@ glm::vec3 read_point(const XmlElement& point);
 
 /// Returns the linear sRGB colour of a spectrum, given as (nm, value) at increasing wavelengths, linear in
 /// between and 0 outside. Negative channels (out of gamut) become 0. A single sample means a constant spectrum.
-Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumOf what);
+Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumKind what);
 
 /// Returns the linear sRGB colour of a black body's radiance, in W / (m^2 sr nm) averaged with the CIE matching
 /// functions, as in Mitsuba; kelvin > 0. Negative channels become 0.

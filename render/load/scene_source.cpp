@@ -35,7 +35,7 @@ std::string scene_name(const SceneSource& source) {
 }
 
 void LoadProgress::begin(Stage stage, int total) {
-    check_wanted();
+    throw_if_cancelled();
     const std::lock_guard lock(mutex_);
     state_ = {stage, 0, total};
 }
@@ -50,7 +50,7 @@ LoadProgress::State LoadProgress::state() const {
     return state_;
 }
 
-void LoadProgress::check_wanted() const {
+void LoadProgress::throw_if_cancelled() const {
     if (given_up())
         throw std::runtime_error("loading was cancelled");
 }

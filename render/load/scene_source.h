@@ -46,7 +46,7 @@ public:
     void give_up() { given_up_ = true; }
     bool given_up() const { return given_up_; }
     /// Throws std::runtime_error after give_up().
-    void check_wanted() const;
+    void throw_if_cancelled() const;
 
 private:
     mutable std::mutex mutex_;

@@ -87,11 +87,11 @@ void add_sky(LoadContext& context, Properties& p, const Daylight& day, float sca
     settings.turbidity = day.turbidity;
     settings.stretch = day.stretch;
     settings.extend = p.boolean("extend", false);
-    settings.scale = Rgb(hosek_level * scale);
+    settings.scale = Rgb(hosek_scale * scale);
     const int resolution = p.integer("resolution", default_resolution);
     if (resolution < 4 || resolution > max_resolution)
         p.take("resolution")->fail("'resolution' must be from 4 to " + std::to_string(max_resolution), "value");
-    p.note("the Preetham sky, scaled by " + std::to_string(hosek_level).substr(0, 3) +
+    p.note("the Preetham sky, scaled by " + std::to_string(hosek_scale).substr(0, 3) +
            ", replaces the Hosek-Wilkie sky, which is not implemented");
     if (p.has("albedo"))
         p.note(*p.take("albedo"), "Preetham's sky does not depend on the albedo of the ground");

@@ -59,10 +59,10 @@ double interpolate(const std::vector<glm::vec2>& samples, double nm) {
 
 } // namespace
 
-Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumOf what) {
+Rgb rgb_of_spectrum(const std::vector<glm::vec2>& samples, SpectrumKind what) {
     if (samples.size() < 2)
         return Rgb(samples.empty() ? 0.0f : samples[0].y);
-    if (what == SpectrumOf::emission)
+    if (what == SpectrumKind::emission)
         return glm::max(linear_rgb([&](double nm) { return interpolate(samples, nm); }), Rgb(0));
     const auto lit = [](double nm, double value) { return value * d65_at(static_cast<int>(nm)); };
     static const Rgb white = linear_rgb([&](double nm) { return lit(nm, 1); });

@@ -87,7 +87,7 @@ glm::mat4 rotation(const XmlElement& element, bool planar) {
     if (glm::length(axis) == 0)
         element.fail("a rotation needs an axis");
     const float angle = glm::radians(element.number("angle"));
-    if (is_of_version_0(element) || std::abs(glm::length(axis) - 1) < 1e-6f)
+    if (is_mitsuba_0(element) || std::abs(glm::length(axis) - 1) < 1e-6f)
         return glm::rotate(glm::mat4(1.0f), angle, glm::normalize(axis));
     // Mitsuba 3 does not normalise the axis. Rodrigues' formula with an axis of another length also stretches.
     const float c = std::cos(angle), s = std::sin(angle);

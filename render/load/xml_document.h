@@ -100,7 +100,7 @@ private:
 };
 
 /// Returns whether the scene states a Mitsuba version 0.x.
-inline bool is_of_version_0(const XmlElement& element) {
+inline bool is_mitsuba_0(const XmlElement& element) {
     return element.document().version().starts_with("0.");
 }
 

@@ -87,7 +87,7 @@ public:
         // Memory peaks in finish(), which makes the mesh from the lists; normals are given or computed.
         const std::size_t vertex_bytes = 3 * sizeof(glm::vec3) + sizeof(ObjVertex) + sizeof(unsigned) +
                                          (counts.uvs > 0 ? sizeof(glm::vec2) : 0);
-        ask_for_memory(counts.positions * vertex_bytes + counts.normals * sizeof(glm::vec3) +
+        require_memory(counts.positions * vertex_bytes + counts.normals * sizeof(glm::vec3) +
                            counts.uvs * sizeof(glm::vec2) + counts.triangles * sizeof(glm::uvec3),
                        "its " + std::to_string(counts.positions) + " vertices and " +
                            std::to_string(counts.triangles) + " triangles");

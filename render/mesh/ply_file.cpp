@@ -114,7 +114,7 @@ private:
             throw std::runtime_error("x, y or z is missing");
         const bool has_normals = layout.has({Slot::nx, Slot::ny, Slot::nz});
         const bool has_uvs = layout.has({Slot::u, Slot::v});
-        ask_for_memory(element.count *
+        require_memory(element.count *
                            (2 * sizeof(glm::vec3) + // positions, and given or computed normals
                             (has_uvs ? sizeof(glm::vec2) : 0) + layout.attributes().size() * sizeof(Rgb)),
                        "its " + std::to_string(element.count) + " vertices");
@@ -174,7 +174,7 @@ private:
 
     void read_faces(const PlyElement& element, std::uint64_t& row) {
         const PlyLayout layout(element, "face_");
-        ask_for_memory(element.count * (sizeof(glm::uvec3) + layout.attributes().size() * sizeof(Rgb)),
+        require_memory(element.count * (sizeof(glm::uvec3) + layout.attributes().size() * sizeof(Rgb)),
                        "its " + std::to_string(element.count) + " faces");
         mesh_.triangles.reserve(element.count);
         const std::size_t first = add_attributes(layout, element.count);

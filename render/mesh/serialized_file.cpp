@@ -172,7 +172,7 @@ SerializedMesh parse_serialized(std::istream& stream, int index) {
         3u + (flags & has_normals ? 3u : 0u) + (flags & has_uvs ? 2u : 0u) + (flags & has_colors ? 3u : 0u);
     check_counts(vertices, triangles, numbers * (flags & has_doubles ? 8 : 4), size);
     const std::uint64_t computed = flags & has_normals ? 0 : 3; // normals
-    ask_for_memory(vertices * (numbers + computed) * sizeof(float) + triangles * sizeof(glm::uvec3),
+    require_memory(vertices * (numbers + computed) * sizeof(float) + triangles * sizeof(glm::uvec3),
                    "its " + std::to_string(vertices) + " vertices and " + std::to_string(triangles) +
                        " triangles");
 

@@ -15,8 +15,9 @@
 // throughput of a path is the product over its vertices.
 //   It includes: the cosine at x_i, the choice of the lobe (in pdf_w), directions drawn from guides (in pdf_w),
 //   and q. It excludes: the camera ray, which has weight 1; the MIS weight of the last step, which is a factor of
-//   LightSample::brings and BaseVertex::hit_brings; Russian roulette on reuse, whose weight 1/q PathReuse::share()
-//   applies; and division by the albedo of x_1 (demodulation), which Pass::albedo_of() and coefficient() do.
+//   LightSample::brings and BaseVertex::hit_contribution; Russian roulette on reuse, whose weight 1/q
+//   PathReuse::share() applies; and division by the albedo of x_1 (demodulation), which Pass::albedo_of() and
+//   coefficient() do.
 // The roulette at x_i decides on the next step only, not on the light sample at x_i. So the contribution of that
 // sample is the throughput of x_1 to x_{i-1} times LightSample::brings.
 
@@ -83,7 +84,7 @@ void sample_light(const Tracer& tracer, int index, RayKind kind, BasePath& path)
 /// @param pdf_w  of emitter sampling, per solid angle
 void add_hit(BaseVertex& v, Rgb radiance, float pdf_w) {
     v.hit_pdf_w = v.is_delta || is_black(radiance) ? 0 : pdf_w;
-    v.hit_brings = radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
+    v.hit_contribution = radiance * (v.pdf_w / (v.pdf_w + v.hit_pdf_w));
 }
 
 /// Stores the environment's radiance for a path that leaves the scene at v.
@@ -133,7 +134,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     using Met = Tracer::Met;
     Met met = Met::light;
     if (index + 1 == tracer.settings.max_depth)
-        met = tracer.closest_light(ray, next.vertex, kind, seen);
+        met = tracer.trace_emission(ray, next.vertex, kind, seen);
     else if (!tracer.closest(ray, next.vertex, kind, seen))
         met = Met::infinity;
     if (met == Met::darkness)
@@ -154,7 +155,7 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
         return false;
     path.own_width = tracer.width_beyond(path.own_width, std::sqrt(distance2), s->is_delta);
     v.hit_pdf_w = 0;
-    v.hit_brings = Rgb(0);
+    v.hit_contribution = Rgb(0);
     if (next.vertex.emitter_pdf_a > 0) {
         const LightPoint light = next.vertex.light_toward(-direction);
         add_hit(v, light.radiance, light.pdf / v.next_geometry); // per area over geometry is per solid angle
@@ -175,10 +176,10 @@ void look_into_mirrors(const Tracer& tracer, BasePath& path) {
         if (i + 1 == path.size() && !v.escapes)
             break;
         throughput *= v.throughput();
-        path.very_direct += throughput * v.hit_brings;
-        v.hit_brings = Rgb(0);
+        path.very_direct += throughput * v.hit_contribution;
+        v.hit_contribution = Rgb(0);
     }
-    if (path.mirrors > 0 && tracer.sees_the_same_in_mirrors())
+    if (path.mirrors > 0 && tracer.mirrors_are_deterministic())
         path.albedo = tracer.albedo_in_mirrors(throughput, i + 1, i < path.size() ? &path[i].vertex : nullptr);
 }
 
@@ -191,7 +192,7 @@ void gather(BasePath& path) {
         Rgb here = path.light(i).brings;
         Rgb beyond(0);
         if (i + 1 < path.size() || v.escapes) {
-            here += v.throughput() * v.hit_brings;
+            here += v.throughput() * v.hit_contribution;
             beyond = v.throughput() * v.arriving;
         }
         toward_camera = here + beyond;
@@ -301,7 +302,7 @@ void LightPaths::reset(const BasePath& path, const ShiftSettings& settings) {
             break;
         }
         throughput *= v.throughput();
-        carried_.push_back(throughput * v.hit_brings);
+        carried_.push_back(throughput * v.hit_contribution);
         steps_.push_back(step_from(path, rule, i, apart));
         if (joins && i > 0 && step_joins(i - 1) && !v.is_delta) {
             join_ = i;

@@ -36,9 +36,9 @@ struct BaseVertex {
     Scatter scatter = Scatter::reflect;
     float next_geometry = 0; ///< |cos| at x_{i+1} over the squared distance: pdf per area over pdf_w
 
-    float hit_pdf_w = 0; ///< of emitter sampling for the emitter that is hit; 0: it cannot be sampled
-    Rgb hit_brings{0};   ///< radiance from that emitter times its MIS weight
-    Rgb arriving{0};     ///< radiance from x_{i+1} by all longer light paths, with their MIS weights
+    float hit_pdf_w = 0;     ///< of emitter sampling for the emitter that is hit; 0: it cannot be sampled
+    Rgb hit_contribution{0}; ///< radiance from that emitter times its MIS weight
+    Rgb arriving{0};         ///< radiance from x_{i+1} by all longer light paths, with their MIS weights
 
     /// Returns the factor by which x_i scales radiance from beyond.
     Rgb throughput() const { return f_cos / (pdf_w * survival); }

@@ -10,7 +10,7 @@ namespace {
 
 /// Returns the BSDF if it is diffuse and no bump or normal map bends its frame, else null.
 const Diffuse* plain_diffuse(const Bsdf& bsdf) {
-    return bsdf.is_bent() ? nullptr : std::get_if<Diffuse>(&bsdf.kind);
+    return bsdf.has_relief() ? nullptr : std::get_if<Diffuse>(&bsdf.kind);
 }
 
 } // namespace
@@ -107,7 +107,7 @@ FirstScatter& OffsetPaths::add_first_scatter(int first_slot, int end_slot) {
 }
 
 void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 point, glm::vec3 normal,
-                      bool one_sided, SightLanes& sight) {
+                      bool one_sided, ConnectionLanes& sight) {
     for (int m = 0; m < padded(y.count()); ++m) {
         const float dx = point.x - y.position.x[m], dy = point.y - y.position.y[m], dz = point.z - y.position.z[m];
         const float distance2 = dx * dx + dy * dy + dz * dz;
@@ -123,8 +123,8 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 
     }
 }
 
-void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light, SightLanes& sight,
-                      LightLanes& arriving) {
+void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light,
+                      ConnectionLanes& sight, LightLanes& arriving) {
     if (light.kind == LightPoint::Kind::surface) {
         connect_to_point(y, lanes, light.position, light.normal, true, sight);
         for (int m = 0; m < padded(y.count()); ++m) {

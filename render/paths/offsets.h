@@ -126,7 +126,7 @@ private:
 };
 
 /// Geometry of the connections from offset vertices to one point, one lane for each pixel.
-struct SightLanes {
+struct ConnectionLanes {
     LaneMask valid;       ///< the lane is requested, and the vertex lies on the right side of the point
     Vec3Lanes direction;  ///< unit, world, toward the point
     FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area, METHODS (14)
@@ -136,7 +136,7 @@ struct SightLanes {
 /// Connects vertices to a point on a surface, without visibility.
 /// @param one_sided  only from the side of `normal`
 void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 point, glm::vec3 normal,
-                      bool one_sided, SightLanes& sight);
+                      bool one_sided, ConnectionLanes& sight);
 
 /// Light from a point on a light at offset vertices, one lane for each pixel.
 struct LightLanes {
@@ -145,8 +145,8 @@ struct LightLanes {
 };
 
 /// Connects vertices to a point on a light, or to a direction at infinity, without visibility.
-void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light, SightLanes& sight,
-                      LightLanes& arriving);
+void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light,
+                      ConnectionLanes& sight, LightLanes& arriving);
 
 /// Sets the segments from vertices to a point on a surface. @param direction  unit, from each vertex to the point
 void edges_to_point(const Tracer& tracer, const OffsetVertices& y, const Vec3Lanes& direction, glm::vec3 point,

@@ -90,16 +90,16 @@ struct DirectionGuide {
 };
 
 /// Candidates for the share s. Quarters keep a rescaled random number below 1 in floating point.
-inline constexpr std::array<float, 4> tried_shares = {0, 0.25f, 0.5f, 0.75f};
-using TriedShares = std::array<float, tried_shares.size()>;
+inline constexpr std::array<float, 4> share_candidates = {0, 0.25f, 0.5f, 0.75f};
+using ShareCandidates = std::array<float, share_candidates.size()>;
 
-/// Returns v^2 p_s / p_t of one sample for each t in tried_shares, METHODS (23). The mean over samples estimates
-/// the second moment with share t.
+/// Returns v^2 p_s / p_t of one sample for each t in share_candidates, METHODS (23). The mean over samples
+/// estimates the second moment with share t.
 /// @param value   v: contribution of the sample over pdf_w
 /// @param pdf_w   p_s of its direction, per solid angle; or the probability of a delta scatter
 /// @param guided  g of its direction, per solid angle; 0 for a delta scatter
 /// @param used    s, the share with which it was drawn
-TriedShares squares_by_share(float value, float pdf_w, float guided, float used);
+ShareCandidates second_moments(float value, float pdf_w, float guided, float used);
 
 /// Light that a guiding path found beyond one of its vertices.
 struct FoundLight {
@@ -112,9 +112,9 @@ struct FoundLight {
 
 /// Grid over the positions of path vertices, times the six sides that a surface can face.
 struct GuidingGrid {
-    glm::ivec3 size{0};       ///< cells along each axis
-    glm::vec3 low{0};         ///< corner, world
-    float cells_a_length = 0; ///< cells per scene unit
+    glm::ivec3 size{0};         ///< cells along each axis
+    glm::vec3 low{0};           ///< corner, world
+    float cells_per_length = 0; ///< cells per scene unit
 
     static constexpr int sides = 6;
     int count() const { return size.x * size.y * size.z * sides; }
@@ -123,7 +123,7 @@ struct GuidingGrid {
     }
     /// Returns the index of a cell; positions outside the grid belong to the nearest one.
     int cell_of(glm::vec3 position, glm::vec3 normal) const {
-        const glm::vec3 q = glm::clamp((position - low) * cells_a_length, glm::vec3(0), glm::vec3(size - 1));
+        const glm::vec3 q = glm::clamp((position - low) * cells_per_length, glm::vec3(0), glm::vec3(size - 1));
         const glm::vec3 a = glm::abs(normal);
         const bool is_x = a.x > a.y && a.x > a.z, is_y = !is_x && a.y > a.z;
         const float along = is_x ? normal.x : is_y ? normal.y : normal.z;
@@ -138,9 +138,9 @@ class PathGuiding {
 public:
     /// @param known  index of each cell's guide; -1: none
     PathGuiding(const GuidingGrid& grid, std::vector<int> known, std::vector<DirectionGuide> guides,
-                double left_of_squares)
+                double remaining_second_moment)
         : grid_(grid), known_(std::move(known)), drawn_from_(known_), guides_(std::move(guides)),
-          left_of_squares_(left_of_squares) {
+          left_of_squares_(remaining_second_moment) {
         for (int& guide : drawn_from_)
             if (guide >= 0 && guides_[guide].share == 0)
                 guide = -1;
@@ -152,7 +152,7 @@ public:
 
     /// Returns the second moment with the best shares over that without a guide, in (0, 1]. It is a geometric
     /// mean over cells, weighted by their numbers of samples, so few bright samples do not decide. 1: not known.
-    double left_of_squares() const { return left_of_squares_; }
+    double remaining_second_moment() const { return left_of_squares_; }
 
     /// Smoother surfaces are not guided (not tuned).
     static constexpr float least_roughness = 0.11f;

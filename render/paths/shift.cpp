@@ -32,7 +32,7 @@ bool Shift::start(int self) {
         (*outcomes_)[m] = y_->exists[m] ? ShiftOutcome::ok : ShiftOutcome::outside;
     if (self >= 0)
         active_[self] = 0;
-    notify(active_, [&](int m) { onlooker_->arrives(m, (*y_)[m]); });
+    notify(active_, [&](int m) { observer_->arrives(m, (*y_)[m]); });
     std::int32_t any = 0;
     for (int m = 0; m < padded(y_->count()); ++m)
         any |= active_[m];
@@ -113,7 +113,7 @@ void Shift::select_lobes(LaneMask& eligible) {
 }
 
 /// Keeps the eligible offsets whose edge is connectable exactly if the base's is. The others fail.
-void Shift::keep_alike(bool connectable, LaneMask& eligible, SightLanes& sight) {
+void Shift::keep_alike(bool connectable, LaneMask& eligible, ConnectionLanes& sight) {
     for (int m = 0; m < padded(y_->count()); ++m) {
         const bool same = is_connectable(m, std::sqrt(sight.distance2[m])) == connectable;
         eligible[m] = same ? eligible[m] : 0;

@@ -2,7 +2,7 @@
 
 #include "render/paths/base_path.h"
 #include "render/paths/offsets.h"
-#include "render/paths/shift_onlooker.h"
+#include "render/paths/shift_observer.h"
 #include "render/paths/tracer.h"
 
 #include <cstddef>
@@ -90,7 +90,7 @@ struct PrefixLanes {
 struct VertexConnection {
     int vertex;            ///< i; 0 is y_1
     LaneMask eligible;     ///< active offsets that decide on this step as the base does
-    SightLanes sight;      ///< of x_{i+1} from y_i
+    ConnectionLanes sight; ///< of x_{i+1} from y_i
     BsdfLanes bsdf;        ///< at y_i, toward x_{i+1}
     LaneMask lit;          ///< eligible offsets that can receive light along the edge
     LaneMask reached;      ///< lit offsets whose edge also joins, METHODS (18)
@@ -101,7 +101,7 @@ struct VertexConnection {
 /// Connections from offset vertices y_i to a point on a light, or to a direction at infinity.
 struct LightConnection {
     LaneMask eligible; ///< active offsets that decide on this step as the base does
-    SightLanes sight;
+    ConnectionLanes sight;
     LightLanes arriving;
     BsdfLanes bsdf; ///< at y_i, toward the light
 };
@@ -131,7 +131,7 @@ public:
              PendingEdges& edges, OutcomeLanes& outcomes);
 
     /// Sets the observer of the next runs; null: none.
-    void set_onlooker(ShiftOnlooker* onlooker) { onlooker_ = onlooker; }
+    void set_observer(ShiftObserver* observer) { observer_ = observer; }
 
 private:
     const BaseVertex& base(int i) const { return (*base_)[i]; }
@@ -149,7 +149,7 @@ private:
     void shift_light(int i);
     void escape(int i);
     void select_lobes(LaneMask& eligible);
-    void keep_alike(bool connectable, LaneMask& eligible, SightLanes& sight);
+    void keep_alike(bool connectable, LaneMask& eligible, ConnectionLanes& sight);
     void record_failures(const LaneMask& eligible, const LaneMask& arrived, ShiftOutcome outcome);
     void fail(int m, ShiftOutcome outcome);
 
@@ -183,7 +183,7 @@ private:
     /// Calls tell(m) for the lanes of a mask, if there is an observer.
     template <class Tell>
     void notify(const LaneMask& lanes, Tell&& tell) const {
-        for (int m = 0; onlooker_ && m < y_->count(); ++m)
+        for (int m = 0; observer_ && m < y_->count(); ++m)
             if (lanes[m])
                 tell(m);
     }
@@ -195,7 +195,7 @@ private:
 
     Tracer tracer_;
     ShiftSettings settings_;
-    ShiftOnlooker* onlooker_ = nullptr;
+    ShiftObserver* observer_ = nullptr;
     JoinRule rule_;
 
     // Arguments of run().

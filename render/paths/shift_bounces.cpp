@@ -43,7 +43,7 @@ bool Shift::bounce(int i) {
         if (active_[m])
             moved_.set(m, *next_vertices_[m]);
     y_ = &moved_;
-    notify(active_, [&](int m) { onlooker_->arrives(m, moved_[m]); });
+    notify(active_, [&](int m) { observer_->arrives(m, moved_[m]); });
     return any;
 }
 
@@ -98,8 +98,8 @@ bool Shift::bounce(int i, int m) {
     const float scale = s->jacobian / x.pdf_w;
     prefix_.ratio[m] *= s->pdf_w * scale;
     prefix_.value.set(m, prefix_.value[m] * s->f_cos * scale);
-    if (onlooker_)
-        onlooker_->bounces(m, {i, s->pdf_w, x.is_delta, s->jacobian, prefix_.ratio[m], prefix_.value[m]});
+    if (observer_)
+        observer_->bounces(m, {i, s->pdf_w, x.is_delta, s->jacobian, prefix_.ratio[m], prefix_.value[m]});
     return true;
 }
 
@@ -145,8 +145,8 @@ void Shift::replay_light(int i, int m, EdgeGroup& edges) {
     const int slot = light_->emitter_slot(i);
     paths_->row(slot).set(m, prefix_.ratio[m], prefix_.value[m] * drawn.brings);
     record_bounce(m, {drawn.to_light, drawn.f_cos, drawn.pdf_w, 1}, false);
-    if (onlooker_)
-        onlooker_->ends(m, slot, last_step(slot, m, drawn.pdf_sum, base_->light(i).pdf_sum / drawn.pdf_sum));
+    if (observer_)
+        observer_->ends(m, slot, last_step(slot, m, drawn.pdf_sum, base_->light(i).pdf_sum / drawn.pdf_sum));
     edges.exists[m] = -1;
     edges.segments.from.set(m, way.from);
     edges.segments.to.set(m, way.to);
@@ -166,8 +166,8 @@ void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 orig
     const float scale = replays() ? 1 / pdf_sum : s.jacobian / base_pdf_sum;
     paths_->row(slot).set(m, prefix_.ratio[m] * pdf_sum * scale,
                           prefix_.value[m] * s.f_cos * seen->radiance * scale);
-    if (onlooker_)
-        onlooker_->ends(m, slot, last_step(slot, m, pdf_sum, scale * base_pdf_sum, is_delta));
+    if (observer_)
+        observer_->ends(m, slot, last_step(slot, m, pdf_sum, scale * base_pdf_sum, is_delta));
 }
 
 /// Returns whether the inverse shift would bounce here as well, after a scatter by a lobe. Base and offset must

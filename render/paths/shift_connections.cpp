@@ -49,7 +49,7 @@ void Shift::connect_light(int i, bool connectable) {
         edges.exists[m] = row.ratio[m] > 0 ? -1 : 0;
     }
     notify(edges.exists, [&](int m) {
-        onlooker_->ends(m, slot,
+        observer_->ends(m, slot,
                         last_step(slot, m, c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m],
                                   x.pdf_w / c.arriving.pdf_w[m]));
     });
@@ -76,13 +76,14 @@ void Shift::connect_infinity(int i) {
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
     for (int m = 0; m < padded(y_->count()); ++m) {
-        // hit_brings / pdf_w is the radiance over the summed pdfs of this step.
+        // hit_contribution / pdf_w is the radiance over the summed pdfs of this step.
         const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + x.hit_pdf_w) / (x.pdf_w + x.hit_pdf_w);
-        row.set(m, c.eligible[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * x.hit_brings / x.pdf_w);
+        row.set(m, c.eligible[m] ? ratio : 0.0f,
+                prefix_.value[m] * c.bsdf.f_cos[m] * x.hit_contribution / x.pdf_w);
         edges.exists[m] = row.ratio[m] > 0 ? -1 : 0;
     }
     notify(edges.exists,
-           [&](int m) { onlooker_->ends(m, slot, last_step(slot, m, c.bsdf.pdf_w[m] + x.hit_pdf_w, 1)); });
+           [&](int m) { observer_->ends(m, slot, last_step(slot, m, c.bsdf.pdf_w[m] + x.hit_pdf_w, 1)); });
     edges_to_light(tracer_, *y_, c.sight.direction, infinity, edges.segments);
     record_failures(c.eligible, edges.exists, ShiftOutcome::no_light);
 }
@@ -140,7 +141,7 @@ const VertexConnection& Shift::connect_vertex(int i, EdgeGroup& edges) {
     }
     edges_to_point(tracer_, *y_, c.sight.direction, next.position, next.geometric_normal, edges.segments);
     notify(c.reached, [&](int m) {
-        onlooker_->joins(m, {i, c.bsdf.pdf_w[m], false, c.sight.geometry[m] / x.next_geometry, c.prefix.ratio[m],
+        observer_->joins(m, {i, c.bsdf.pdf_w[m], false, c.sight.geometry[m] / x.next_geometry, c.prefix.ratio[m],
                              c.prefix.value[m]});
     });
     return c;
@@ -163,7 +164,7 @@ void Shift::shift_hit(const VertexConnection& c) {
         row.set(m, faces && c.lit[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * front.radiance * scale);
     }
     notify(c.lit, [&](int m) {
-        onlooker_->ends(m, slot,
+        observer_->ends(m, slot,
                         last_step(slot, m, c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m],
                                   c.sight.geometry[m] / x.next_geometry));
     });
@@ -187,7 +188,7 @@ void Shift::shift_light_beyond(const VertexConnection& c) {
         row.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] * bsdf_counts + l.pdf_w) * scale,
                 c.prefix.value[m] * beyond_.f_cos[m] * seen->radiance * scale);
     notify(c.reached, [&](int m) {
-        onlooker_->ends_beyond(m, slot, last_step(slot, m, beyond_.pdf_w[m] * bsdf_counts + l.pdf_w, 1));
+        observer_->ends_beyond(m, slot, last_step(slot, m, beyond_.pdf_w[m] * bsdf_counts + l.pdf_w, 1));
     });
 }
 
@@ -201,16 +202,16 @@ void Shift::shift_tail(const VertexConnection& c) {
     const float scale = 1 / (x.pdf_w * x.survival), hit_scale = 1 / (x.pdf_w + x.hit_pdf_w);
     for (int m = 0; m < padded(count); ++m) {
         const Rgb value = c.prefix.value[m] * beyond_.f_cos[m] * scale;
-        // hit_brings / pdf_w is the radiance over the summed pdfs of this step.
-        hit.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] + x.hit_pdf_w) * hit_scale, value * x.hit_brings);
+        // hit_contribution / pdf_w is the radiance over the summed pdfs of this step.
+        hit.set(m, c.prefix.ratio[m] * (beyond_.pdf_w[m] + x.hit_pdf_w) * hit_scale, value * x.hit_contribution);
         tail.set(m, c.prefix.ratio[m] * beyond_.pdf_w[m] / x.pdf_w, value * x.arriving);
     }
     notify(c.reached, [&](int m) {
-        onlooker_->ends_beyond(m, hit_slot, last_step(hit_slot, m, beyond_.pdf_w[m] + x.hit_pdf_w, 1));
+        observer_->ends_beyond(m, hit_slot, last_step(hit_slot, m, beyond_.pdf_w[m] + x.hit_pdf_w, 1));
         OffsetStep last = last_step(hit_slot, m, beyond_.pdf_w[m], 1);
         last.ratio = tail.ratio[m];
         last.value = tail.value[m];
-        onlooker_->ends_beyond(m, tail_slot, last);
+        observer_->ends_beyond(m, tail_slot, last);
     });
 }
 

@@ -97,7 +97,7 @@ glm::vec3 bend(const Relief& relief, const SurfacePoint& at, glm::vec3 normal, g
 /// Returns Bsdf::terminator for a normal bent by an angle with this cosine [Estevez 2019, 12.3].
 float terminator_of(const Relief& relief, float cosine) {
     const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
-    return relief.softens_terminator ? std::min(0.125f * tan2, 1.0f) : 0;
+    return relief.use_shadowing_function ? std::min(0.125f * tan2, 1.0f) : 0;
 }
 
 /// Returns the footprint of a beam on a surface: one side is the beam's width, the other is longer by 1 / cosine
@@ -108,7 +108,7 @@ TextureView::Sides sides_of(const TextureView::Beam& beam, glm::vec3 normal) {
     const glm::vec3 tilt = beam.direction - cosine * normal;
     const float sine = glm::length(tilt);
     const glm::vec3 along = sine > 1e-4f ? tilt / sine : Frame(normal).tangent;
-    const float width = TextureView::share_of_pixel * beam.width;
+    const float width = TextureView::footprint_pixels * beam.width;
     return {along * (width / std::max(std::abs(cosine), least_cosine)), glm::cross(normal, along) * width};
 }
 
@@ -149,10 +149,10 @@ Rgb Tracer::very_direct_along(Ray ray) const {
     Vertex x;
     RayKind kind = RayKind::camera;
     TextureLookup seen = first_lookup();
-    float width = view.first_width();
+    float width = view.initial_width();
     for (int edges = 1; edges <= settings.max_depth; ++edges) {
         const bool may_go_on = edges < settings.max_depth && scene.has_mirrors();
-        const Met met = closest_light(ray, x, kind, seen, may_go_on);
+        const Met met = trace_emission(ray, x, kind, seen, may_go_on);
         if (met == Met::darkness)
             break;
         if (met == Met::infinity)
@@ -216,8 +216,8 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
     }
     const float shown = side_shown(shape, normal, ray.direction);
     const Frame frame = shading_frame(shape, hit, v.geometric_normal, shown * bent);
-    if (v.bsdf.is_bent())
-        v.bsdf.unbent_normal = frame.to_local(shown * normal);
+    if (v.bsdf.has_relief())
+        v.bsdf.interpolated_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);
     v.frame = frame;
     // Emitter sampling evaluates points. Emission that both strategies can find must not be filtered either.
@@ -235,11 +235,11 @@ FeatureSample feature_sample_along(const Tracer& tracer, Ray ray, const Random& 
     Vertex x;
     bool is_seen_in_mirrors = true; // and through no glass
     Tracer::TextureLookup seen = tracer.first_lookup();
-    float width = tracer.view.first_width();
+    float width = tracer.view.initial_width();
     for (int i = 1; tracer.closest(ray, x, RayKind::feature, seen); ++i) {
         const float distance = glm::distance(ray.origin, x.position);
         length += distance;
-        const bool is_mirror = x.bsdf.is_mirror() && tracer.sees_the_same_in_mirrors();
+        const bool is_mirror = x.bsdf.is_mirror() && tracer.mirrors_are_deterministic();
         if (is_seen_in_mirrors)
             sample.albedo = i > 1 || is_mirror ? tracer.albedo_in_mirrors(features.albedo, i, &x)
                                                : x.bsdf.albedo(x.to_previous);

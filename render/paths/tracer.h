@@ -97,12 +97,12 @@ struct Tracer {
     /// @param is_in_mirrors  the camera sees the hit through mirrors only. It is then filtered only if x_1 is,
     ///                       because radiance is divided by its albedo.
     TextureLookup lookup(float width = no_width, bool is_in_mirrors = false) const {
-        const bool is_spared = is_in_mirrors && view.spares_first() && sees_the_same_in_mirrors();
+        const bool is_spared = is_in_mirrors && view.first_unfiltered() && mirrors_are_deterministic();
         return {view.filter() == TextureFilter::off || is_spared ? nullptr : &view, width};
     }
     /// Returns the lookup for a camera ray.
     TextureLookup first_lookup() const {
-        return view.spares_first() ? TextureLookup{nullptr, no_width} : lookup(view.first_width());
+        return view.first_unfiltered() ? TextureLookup{nullptr, no_width} : lookup(view.initial_width());
     }
     /// Returns the pixel width at the next vertex: grown by the distance after a delta scatter with
     /// TextureFilter::path, else no_width. @param width  at this vertex
@@ -125,13 +125,13 @@ struct Tracer {
         return true;
     }
 
-    /// Result of closest_light(): an emitter (or mirror), a surface that is neither, or no surface.
+    /// Result of trace_emission(): an emitter (or mirror), a surface that is neither, or no surface.
     enum class Met : std::uint8_t { light, darkness, infinity };
 
     /// Traces a ray of which only the emission is needed. Sets `vertex` if it returns Met::light.
     /// @param or_mirror  accepts surfaces that may be mirrors, too
-    Met closest_light(const Ray& ray, Vertex& vertex, RayKind kind, TextureLookup lookup,
-                      bool or_mirror = false) const {
+    Met trace_emission(const Ray& ray, Vertex& vertex, RayKind kind, TextureLookup lookup,
+                       bool or_mirror = false) const {
         if (!or_mirror && !scene.lights().may_be_hit(ray))
             return Met::darkness;
         ++counters.rays[static_cast<std::size_t>(kind)];
@@ -149,7 +149,7 @@ struct Tracer {
 
     /// Returns the emission at the end of a ray; black: none. Overwrites `scratch`.
     LightPoint light_along(const Ray& ray, Vertex& scratch, RayKind kind, TextureLookup lookup) const {
-        switch (closest_light(ray, scratch, kind, lookup)) {
+        switch (trace_emission(ray, scratch, kind, lookup)) {
         case Met::light:
             return scratch.light_toward(-ray.direction);
         case Met::infinity:
@@ -165,7 +165,7 @@ struct Tracer {
 
     /// Returns whether all rays from one point into a mirror see the same surface. Opacity masks, which some rays
     /// pass, prevent that.
-    bool sees_the_same_in_mirrors() const { return !scene.has_masks(); }
+    bool mirrors_are_deterministic() const { return !scene.has_masks(); }
     /// Returns the approximate albedo of a pixel that sees x_index through mirrors with this throughput. It is
     /// positive, because radiance is divided by it: 1e-4 if x_index (`seen`) is null, a mirror, or has no edge
     /// beyond it by max_depth.

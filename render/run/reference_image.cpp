@@ -65,7 +65,7 @@ RgbImage variance_of(const ReferenceImage& reference) {
     return variance;
 }
 
-void KnownPixels::look_at(const GradientImages& images) {
+void UnreliablePixels::look_at(const GradientImages& images) {
     const RgbImage clamped = clamped_radiance(images);
     for (std::size_t i = 0; i < fireflies_.size(); ++i) {
         if (!is_black(clamped.data()[i]))
@@ -76,7 +76,7 @@ void KnownPixels::look_at(const GradientImages& images) {
     }
 }
 
-Image<float> KnownPixels::unknown() const {
+Image<float> UnreliablePixels::unknown() const {
     Image<float> unknown = fireflies_;
     for (std::size_t i = 0; i < unknown.size(); ++i)
         unknown.data()[i] = std::max(unknown.data()[i], dark_.data()[i]);
@@ -111,8 +111,8 @@ Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>&
     return doubt;
 }
 
-double untrusted_share(const Image<float>& doubt) {
-    const auto count = std::count_if(doubt.begin(), doubt.end(), [](float d) { return d > most_doubt; });
+double untrusted_fraction(const Image<float>& doubt) {
+    const auto count = std::count_if(doubt.begin(), doubt.end(), [](float d) { return d > untrusted_threshold; });
     return doubt.empty() ? 0 : static_cast<double>(count) / static_cast<double>(doubt.size());
 }
 
@@ -136,7 +136,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
                                        {"seeds", reference.seeds},
                                        {"relmse", error.relative_mse},
                                        {"relmse_standard_error", error.standard_error},
-                                       {"untrusted", untrusted_share(reference.doubt)}};
+                                       {"untrusted", untrusted_fraction(reference.doubt)}};
     ExrFile file{{{"", reference.mean}}, {}};
     for (std::size_t i = 0; i < 2; ++i)
         file.layers.push_back({half_names[i], reference.halves[i]});

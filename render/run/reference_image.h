@@ -55,9 +55,9 @@ RgbImage variance_of(const ReferenceImage& reference);
 
 /// Finds pixels that are unreliable even if both halves agree: those with a firefly, and those without light. It
 /// reads the halves before their reconstruction.
-class KnownPixels {
+class UnreliablePixels {
 public:
-    explicit KnownPixels(glm::ivec2 size) : fireflies_(size.x, size.y), dark_(size.x, size.y, 1.0f) {}
+    explicit UnreliablePixels(glm::ivec2 size) : fireflies_(size.x, size.y), dark_(size.x, size.y, 1.0f) {}
 
     /// Adds the means of one half.
     void look_at(const GradientImages& images);
@@ -70,16 +70,16 @@ private:
 };
 
 /// Doubt above which a pixel counts as untrusted; not tuned.
-inline constexpr float most_doubt = 0.1f;
+inline constexpr float untrusted_threshold = 0.1f;
 
 /// Returns the relative standard error of each pixel of the mean: the root mean square of half the halves'
 /// difference over 3x3 pixels, divided by their mean luminance plus 1 % of that of the picture. It is at least
 /// `unknown`, because both halves can have missed the same light.
-/// @param unknown  KnownPixels::unknown()
+/// @param unknown  UnreliablePixels::unknown()
 Image<float> doubt_of(const std::array<RgbImage, 2>& halves, const Image<float>& unknown);
 
 /// Returns the fraction of untrusted pixels, in [0, 1].
-double untrusted_share(const Image<float>& doubt);
+double untrusted_fraction(const Image<float>& doubt);
 
 /// Returns the mean of two images of equal size.
 RgbImage mean_of(const RgbImage& a, const RgbImage& b);

@@ -1,8 +1,8 @@
 #include "render/run/reference_render.h"
 
 #include "render/io/json_text.h"
+#include "render/run/checked_reconstruction.h"
 #include "render/run/checkpoint.h"
-#include "render/run/fitting_reconstruction.h"
 #include "render/run/picture_identity.h"
 #include "render/run/reference_share.h"
 #include "render/scene/camera.h"
@@ -34,7 +34,7 @@ std::array<RgbImage, 2> reconstructed_halves(const ReferenceRecipe& recipe, Imag
     for (std::size_t i = 0; i < 2; ++i) {
         const GradientImages images = images_of(i);
         Reconstructor reconstructor; // a cold start keeps the halves independent
-        halves[i] = reconstruct_if_it_fits(reconstructor, images, settings).image;
+        halves[i] = reconstruct_checked(reconstructor, images, settings).image;
     }
     return halves;
 }
@@ -84,7 +84,7 @@ PassRange passes_of(const ReferenceRecipe& recipe) {
 ReferenceRender::ReferenceRender(std::filesystem::path output, PictureSubject subject,
                                  const ReferenceRecipe& recipe, ThreadPool& pool)
     : output_(std::move(output)), subject_(std::move(subject)), recipe_(recipe), pool_(pool),
-      halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)}, identity_(share_identity(subject_, recipe)),
+      halves_{half(subject_, recipe, 0), half(subject_, recipe, 1)}, identity_(shard_identity(subject_, recipe)),
       wanted_(recipe.share.is_all() ? recipe.spp : 2 * passes_of(recipe).count) {
     if (recipe.settings.path_guiding != Guiding::off)
         throw std::invalid_argument(
@@ -122,7 +122,7 @@ FloorFreeError ReferenceRender::error_so_far() const {
 ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
                             const SceneSource& source, const SceneChecksums& scene) {
     ReferenceImage reference;
-    KnownPixels known(recipe.size);
+    UnreliablePixels known(recipe.size);
     reference.halves = reconstructed_halves(recipe, [&](std::size_t i) {
         GradientImages images = halves[i].take_images();
         known.look_at(images);
@@ -150,8 +150,8 @@ ReferenceImage ReferenceRender::finish() {
     return reference;
 }
 
-void ReferenceRender::finish_share() {
-    write_checkpoint(output_, share_header(subject_, recipe_), memory());
+void ReferenceRender::finish_shard() {
+    write_checkpoint(output_, shard_header(subject_, recipe_), memory());
     std::filesystem::remove(reference_checkpoint(output_)); // only after the shard is written
 }
 

@@ -23,12 +23,12 @@ inline constexpr std::uint64_t first_reference_seed = 1001;
 RenderSettings reference_settings();
 
 /// A shard of a reference: one of `count` parts of its passes.
-struct PassShare {
+struct PassShard {
     int number = 1; ///< from 1 to `count`
     int count = 1;
 
     bool is_all() const { return count == 1; }
-    bool operator==(const PassShare&) const = default;
+    bool operator==(const PassShard&) const = default;
 };
 
 /// How a reference is made.
@@ -39,7 +39,7 @@ struct ReferenceRecipe {
     /// Reconstruction of both halves. L2 is linear in the raw samples, and so unbiased.
     ReconstructionSettings reconstruction{.norm = Norm::l2};
     double checkpoint_seconds = 60; ///< wall time between checkpoints
-    PassShare share;                ///< the shard to render (reference_share.h)
+    PassShard share;                ///< the shard to render (reference_share.h)
 };
 
 /// Returns the settings of the reconstruction: `none` for a method without gradients. The choice depends on
@@ -93,8 +93,8 @@ public:
 
     /// Writes the complete reference, and then removes the checkpoint. Frees the films: no other call may follow.
     ReferenceImage finish();
-    /// Writes the complete shard for merge_shares(), and then removes the checkpoint.
-    void finish_share();
+    /// Writes the complete shard for merge_shards(), and then removes the checkpoint.
+    void finish_shard();
 
 private:
     bool is_complete() const { return spp() >= wanted_ && halves_[0].spp() == halves_[1].spp(); }

@@ -131,7 +131,7 @@ Memory memory_of(std::array<Render, 2>& halves) {
 
 } // namespace
 
-std::string share_identity(const PictureSubject& subject, const ReferenceRecipe& recipe) {
+std::string shard_identity(const PictureSubject& subject, const ReferenceRecipe& recipe) {
     const std::string whole = picture_identity(subject, recipe.settings, recipe.size);
     if (recipe.share.is_all())
         return whole;
@@ -141,7 +141,7 @@ std::string share_identity(const PictureSubject& subject, const ReferenceRecipe&
     return to_text(identity);
 }
 
-std::string share_header(const PictureSubject& subject, const ReferenceRecipe& recipe) {
+std::string shard_header(const PictureSubject& subject, const ReferenceRecipe& recipe) {
     RenderSettings settings = recipe.settings;
     ReconstructionSettings reconstruction = recipe.reconstruction;
     return to_text(json{{"identity", parse_json(picture_identity(subject, recipe.settings, recipe.size))},
@@ -159,7 +159,7 @@ std::string share_header(const PictureSubject& subject, const ReferenceRecipe& r
                         {"shares", recipe.share.count}});
 }
 
-ReferenceImage merge_shares(const std::vector<fs::path>& files, const fs::path& output) {
+ReferenceImage merge_shards(const std::vector<fs::path>& files, const fs::path& output) {
     std::vector<ShareFile> shares;
     for (const fs::path& file : files)
         shares.push_back(read_header(file));

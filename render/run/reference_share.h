@@ -1,4 +1,4 @@
-// Shards of a reference: files with the sums of some of its passes, which merge_shares() adds up.
+// Shards of a reference: files with the sums of some of its passes, which merge_shards() adds up.
 #pragma once
 
 #include "render/run/picture_identity.h"
@@ -13,16 +13,16 @@ namespace tessera {
 
 /// Returns everything that determines the bits of a shard, as JSON: picture_identity(), and the shard's number and
 /// the samples per pixel unless it is the whole reference.
-std::string share_identity(const PictureSubject& subject, const ReferenceRecipe& recipe);
+std::string shard_identity(const PictureSubject& subject, const ReferenceRecipe& recipe);
 
-/// Returns the identity of a shard's file, as JSON: everything that merge_shares() needs without loading the
+/// Returns the identity of a shard's file, as JSON: everything that merge_shards() needs without loading the
 /// scene.
-std::string share_header(const PictureSubject& subject, const ReferenceRecipe& recipe);
+std::string shard_header(const PictureSubject& subject, const ReferenceRecipe& recipe);
 
 /// Adds the shards of a reference, and writes the reference to `output`. The bits depend on the number of shards,
 /// and not on the order of `files` or the machines. Holds two shards in memory at a time. Throws
 /// std::runtime_error that names the file if it is no shard or is damaged, or if it differs from the first one in
 /// scene, camera, settings, version or number of shards; and one that lists missing or repeated shards.
-ReferenceImage merge_shares(const std::vector<std::filesystem::path>& files, const std::filesystem::path& output);
+ReferenceImage merge_shards(const std::vector<std::filesystem::path>& files, const std::filesystem::path& output);
 
 } // namespace tessera

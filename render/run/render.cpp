@@ -30,8 +30,8 @@ FilmBuffers buffers_of(const RenderSettings& s) {
             s.method != Method::pt,
             reuses_paths(s.method) && s.adapt_tile,
             s.edge_rays,
-            part_count(s),
-            finds_gain_of_sharing(s) || has_positions(s)};
+            component_count(s),
+            measures_reuse_gain(s) || has_positions(s)};
 }
 
 std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
@@ -41,7 +41,7 @@ std::uint64_t bytes_of_threads(int threads, const RenderSettings& settings) {
 /// Returns the size. Throws std::runtime_error if it is invalid, OutOfMemory if the film does not fit.
 glm::ivec2 checked(glm::ivec2 size, const RenderSettings& settings) {
     check_image_size(size.x, size.y);
-    ask_for_memory(Film::bytes(size.x, size.y, buffers_of(settings)),
+    require_memory(Film::bytes(size.x, size.y, buffers_of(settings)),
                    fmt::format("{}x{} pixels of {}", size.x, size.y, short_name(settings.method)));
     return size;
 }
@@ -63,7 +63,7 @@ std::uint64_t Render::bytes(glm::ivec2 size, const RenderSettings& settings, int
     const std::size_t a_pixel =
         sizeof(Rgb) + sizeof(float) + BrightestSamples::bytes_a_pixel + HalfDifferences::bytes_a_pixel +
         FeatureImages::bytes_a_pixel +
-        static_cast<std::size_t>(buffers_of(settings).parts) * BasisComponent::bytes_a_pixel;
+        static_cast<std::size_t>(buffers_of(settings).components) * BasisComponent::bytes_a_pixel;
     const std::uint64_t means = a_pixel * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const bool learns = settings.path_guiding != Guiding::off;
     const std::uint64_t found = learns ? GuidingLearner::bytes_of_found(size.x * size.y) : 0;
@@ -198,7 +198,7 @@ bool Render::pass(ThreadPool& pool, std::stop_token stop, std::atomic<float>* pr
     const auto start = std::chrono::steady_clock::now();
     const auto done_before = std::ranges::count(done_blocks_, 1);
     if (spp_ == 0)
-        ask_for_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
+        require_memory(bytes_of_threads(pool.size(), settings_), fmt::format("{} threads", pool.size()));
     const bool is_begun = spp_ > 0 || done_before > 0;
     const bool has_pilot = !is_begun && learned_.wants_pilot();
     const std::size_t cells = has_pilot ? static_cast<std::size_t>(learned_.cell_count()) : 0;

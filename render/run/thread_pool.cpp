@@ -25,11 +25,11 @@ void lower_priority(int steps) {
 
 } // namespace
 
-void work_in_background() {
+void lower_priority() {
     lower_priority(10);
 }
 
-void work_behind_others() {
+void lower_priority_further() {
     lower_priority(15);
 }
 
@@ -107,7 +107,7 @@ void ThreadPool::parallel_for(int count, const std::function<void(int, int)>& bo
 
 void ThreadPool::work(int worker, Priority priority) {
     if (priority == Priority::background)
-        work_in_background();
+        lower_priority();
     std::uint64_t seen = 0;
     std::unique_lock lock(mutex_);
     for (;;) {

@@ -14,11 +14,11 @@ namespace tessera {
 
 /// Lowers the priority of the calling thread, so that threads that draw for the user get a core at once. Does
 /// nothing if the system refuses.
-void work_in_background();
+void lower_priority();
 
-/// Lowers the priority further than work_in_background(). On a core that a background thread wants, the calling
+/// Lowers the priority further than lower_priority(). On a core that a background thread wants, the calling
 /// thread gets about a quarter of the time.
-void work_behind_others();
+void lower_priority_further();
 
 /// Returns the CPU time of the calling thread, in seconds.
 double thread_cpu_seconds();
@@ -27,7 +27,7 @@ double thread_cpu_seconds();
 /// every synchronisation.
 class ThreadPool {
 public:
-    /// Priority of the pool's own threads; `background` calls work_in_background().
+    /// Priority of the pool's own threads; `background` calls lower_priority().
     enum class Priority { normal, background };
 
     /// Throws std::runtime_error if the system cannot start so many threads.

@@ -210,6 +210,6 @@ private:
 /// light is sampled at the vertices of 144 paths from the camera, because power alone favours an environment
 /// around a large scene over lamps in it. Deterministic. Returns an empty vector for fewer than two lights with
 /// power, or if no light reaches the paths. See METHODS, "Which light is sampled".
-std::vector<double> learn_light_factors(const Scene& scene);
+std::vector<double> learn_light_selection(const Scene& scene);
 
 } // namespace tessera

@@ -154,7 +154,7 @@ bool optimise_probabilities(std::vector<Group>& groups) {
 
 } // namespace
 
-std::vector<double> learn_light_factors(const Scene& scene) {
+std::vector<double> learn_light_selection(const Scene& scene) {
     std::vector<Group> groups = groups_of(scene);
     if (groups.size() < 2)
         return {};

@@ -47,15 +47,15 @@ Rgb PointLight::toward(glm::vec3 direction) const {
     // atan2 is accurate for narrow cones, where acos is not.
     const float angle =
         glm::degrees(std::atan2(glm::length(glm::cross(direction, axis)), glm::dot(direction, axis)));
-    if (angle <= full_within)
+    if (angle <= beam_width)
         return full;
-    return angle >= cutoff ? Rgb(0) : full * ((cutoff - angle) / (cutoff - full_within));
+    return angle >= cutoff ? Rgb(0) : full * ((cutoff - angle) / (cutoff - beam_width));
 }
 
 double PointLight::power() const {
     if (slide && slide->kind == Slide::Kind::irradiance)
         return luminance(intensity * slide->flux());
-    const double half_way = 0.5 * glm::radians(double(cutoff) + double(full_within));
+    const double half_way = 0.5 * glm::radians(double(cutoff) + double(beam_width));
     const double solid_angle = 2 * double(pi) * (1 - std::cos(half_way));
     return solid_angle * luminance(slide ? intensity * slide->picture.mean() : intensity);
 }

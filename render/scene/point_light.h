@@ -37,7 +37,7 @@ struct PointLight {
     Rgb intensity{1};        ///< power per solid angle
     glm::vec3 axis{0, 0, 1}; ///< of the cone, unit
     float cutoff = 180;      ///< degrees from the axis; no light beyond; 180: no cone
-    float full_within = 180; ///< degrees from the axis with full intensity; linear falloff up to `cutoff`
+    float beam_width = 180;  ///< degrees from the axis with full intensity; linear falloff up to `cutoff`
     std::optional<Slide> slide{};
 
     /// Returns the intensity toward a unit direction.

@@ -92,7 +92,7 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     has_masks_ = std::ranges::any_of(opacities, [](const Texture* opacity) { return opacity; });
     intersector_ = Intersector(description_.shapes, opacities, description_.groups, description_.instances);
     bvh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (const std::vector<double> factors = learn_light_factors(*this); !factors.empty())
+    if (const std::vector<double> factors = learn_light_selection(*this); !factors.empty())
         lights_ = LightTable(description_, radius_, factors);
     for_each_shape(description_,
                    [&](const Shape& shape) { records_.push_back(make_record(shape, description_, lights_)); });

@@ -54,8 +54,10 @@ private:
     }
 
     template <class T>
-    requires is_plain<T>
-    void take(const T& value) { sum_ = tessera::checksum(std::as_bytes(std::span(&value, 1)), sum_); }
+        requires is_plain<T>
+    void take(const T& value) {
+        sum_ = tessera::checksum(std::as_bytes(std::span(&value, 1)), sum_);
+    }
     template <class T, class Memory>
     void take(const std::vector<T, Memory>& values) {
         take(values.size());
@@ -193,8 +195,8 @@ void SceneDigest::take(const PhongMaterial& material) {
 }
 
 void SceneDigest::take(const MixtureMaterial& material) {
-    const auto& [parts, weights, second_share] = material;
-    add(parts, weights, second_share);
+    const auto& [parts, weights, blend_weight] = material;
+    add(parts, weights, blend_weight);
 }
 
 void SceneDigest::take(const CoatedMaterial& material) {
@@ -231,8 +233,8 @@ void SceneDigest::take(const MediumLayerMaterial& material) {
 }
 
 void SceneDigest::take(const Relief& relief) {
-    const auto& [kind, map, scale, softens_terminator] = relief;
-    add(kind, map, scale, softens_terminator);
+    const auto& [kind, map, scale, use_shadowing_function] = relief;
+    add(kind, map, scale, use_shadowing_function);
 }
 
 void SceneDigest::take(const Material& material) {
@@ -251,8 +253,8 @@ void SceneDigest::take(const Slide& slide) {
 }
 
 void SceneDigest::take(const PointLight& light) {
-    const auto& [position, intensity, axis, cutoff, full_within, slide] = light;
-    add(position, intensity, axis, cutoff, full_within);
+    const auto& [position, intensity, axis, cutoff, beam_width, slide] = light;
+    add(position, intensity, axis, cutoff, beam_width);
     if (slide) // as add_if()
         add(*slide);
 }

@@ -15,7 +15,7 @@ inline constexpr float candela_per_radiance = 683.0f * 106.856980f;
 
 /// Factor that brings a Preetham sky near the brightness of the sky of [Hosek 2012], which both Mitsubas use. The
 /// exact ratio depends on turbidity and on the sun's elevation.
-inline constexpr float hosek_level = 0.6f;
+inline constexpr float hosek_scale = 0.6f;
 
 struct SkySettings {
     glm::vec3 sun_direction{0, 1, 0}; ///< unit, toward the sun, +y is up; raised to the horizon if below

@@ -20,10 +20,11 @@ class TextureView {
 public:
     /// Disables filtering.
     TextureView() = default;
-    /// @param spares_first  leaves x_1, and what mirrors at x_1 show, unfiltered. Set with albedo demodulation:
+    /// @param first_unfiltered  leaves x_1, and what mirrors at x_1 show, unfiltered. Set with albedo
+    /// demodulation:
     ///                      the mean albedo of many points per pixel is better than a footprint (PixelFeatures).
-    TextureView(TextureFilter filter, bool spares_first, const Camera& camera, glm::ivec2 size)
-        : filter_(filter), is_parallel_(camera.is_orthographic), spares_first_(spares_first) {
+    TextureView(TextureFilter filter, bool first_unfiltered, const Camera& camera, glm::ivec2 size)
+        : filter_(filter), is_parallel_(camera.is_orthographic), spares_first_(first_unfiltered) {
         const Projection projection(camera, size);
         const Ray middle = projection.ray(glm::vec2(size) * 0.5f);
         eye_ = middle.origin;
@@ -40,14 +41,14 @@ public:
 
     /// Width of a footprint in pixels: that of one of sixteen paths [Suykens 2001, 3.4]. A footprint of one pixel
     /// would blur twice, because samples are distributed over the pixel, too.
-    static constexpr float share_of_pixel = 0.25f;
+    static constexpr float footprint_pixels = 0.25f;
 
     TextureFilter filter() const { return filter_; }
-    bool spares_first() const { return spares_first_; }
+    bool first_unfiltered() const { return spares_first_; }
     /// Angle of a pixel, radians (PixelWidth::angle).
     float angle() const { return width_.angle; }
     /// Width of a pixel where its camera ray begins, scene units.
-    float first_width() const { return width_.least; }
+    float initial_width() const { return width_.least; }
 
     /// The unit direction in which a point is seen, and the width of a pixel there, perpendicular to it.
     struct Beam {

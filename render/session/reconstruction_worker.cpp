@@ -1,7 +1,7 @@
 #include "render/session/reconstruction_worker.h"
 
 #include "render/io/available_memory.h"
-#include "render/run/fitting_reconstruction.h"
+#include "render/run/checked_reconstruction.h"
 #include "render/run/thread_pool.h"
 
 #include <chrono>
@@ -27,7 +27,7 @@ SessionPane* ReconstructionWorker::next_pane() {
 }
 
 void ReconstructionWorker::loop(std::stop_token stop) {
-    work_in_background();
+    lower_priority();
     while (!stop.stop_requested()) {
         SessionPane* pane = nullptr;
         {
@@ -65,8 +65,8 @@ void ReconstructionWorker::reconstruct(SessionPane& pane, const Task& task) {
     std::string failure;
     try {
         *result =
-            reconstruct_if_it_fits(pane.solver.solver_for(*task.snapshot, task.settings, task.cold),
-                                   *task.snapshot->images, task.settings, serial_for, 1, {task.stop, &own.share});
+            reconstruct_checked(pane.solver.solver_for(*task.snapshot, task.settings, task.cold),
+                                *task.snapshot->images, task.settings, serial_for, 1, {task.stop, &own.share});
     } catch (const std::exception& error) {
         failure = fmt::format("pass {} cannot be reconstructed: {}", task.snapshot->spp, message_of(error));
     }

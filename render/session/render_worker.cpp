@@ -85,7 +85,7 @@ SessionPane* RenderWorker::unpublished_pane() {
 }
 
 void RenderWorker::loop(std::stop_token stop) {
-    work_in_background();
+    lower_priority();
     while (!stop.stop_requested()) { // wait() returns true while there is work, even after a stop request
         SessionPane* to_render = nullptr;
         SessionPane* to_publish = nullptr;
@@ -146,7 +146,7 @@ void RenderWorker::render_step(SessionPane& pane, const RenderRequest& request, 
         own.published_spp = 0;
         return; // previews of other panes come first, and the session may be paused
     }
-    if (!own.render->pass(pool_, stop, &pane.pass_share))
+    if (!own.render->pass(pool_, stop, &pane.pass_progress))
         return;
     count_step(pane, generation);
     if (own.published_spp == 0 || Clock::now() - own.published_at >= publish_interval)
@@ -181,7 +181,7 @@ void RenderWorker::preview(SessionPane& pane, const RenderRequest& request, std:
     RenderSettings settings = request.settings;
     settings.path_guiding = Guiding::off; // a single pass does not benefit
     Render coarse(request.scene, request.camera, size, settings);
-    if (!coarse.pass(pool_, stop, &pane.pass_share))
+    if (!coarse.pass(pool_, stop, &pane.pass_progress))
         return;
     const auto snapshot = snapshot_of(coarse, generation, divisor);
     snapshot->settings = request.settings;
@@ -194,7 +194,7 @@ void RenderWorker::preview(SessionPane& pane, const RenderRequest& request, std:
     snapshot->reconstruction_spp = snapshot->spp;
     snapshot->reconstruction_seconds = snapshot->seconds;
     publish(pane, snapshot);
-    pane.pass_share = 0; // the pass has not begun
+    pane.pass_progress = 0; // the pass has not begun
     pane.own.previews.count(generation, divisor, std::chrono::duration<double>(Clock::now() - start).count(),
                             preview_budget());
 }

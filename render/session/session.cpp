@@ -47,7 +47,7 @@ std::uint64_t Session::submit(int pane_index, RenderRequest request) {
         pane.generation = generation = ++shared_->generation;
         pane.failed = false;
         pane.failure.clear();
-        pane.pass_share = 0;
+        pane.pass_progress = 0;
         pane.steps = 0;
     }
     shared_->render_wake.notify_one();
@@ -107,16 +107,16 @@ void Session::set_reconstruction(int pane_index, const ReconstructionSettings& s
     shared_->reconstruct_wake.notify_one();
 }
 
-std::optional<ReconstructionUnderWay> Session::reconstructing(int pane_index) const {
+std::optional<RunningReconstruction> Session::reconstructing(int pane_index) const {
     const std::lock_guard lock(shared_->mutex);
     const PaneReconstruction& own = pane(pane_index).reconstruction;
     if (own.spp == 0)
         return std::nullopt;
     const auto elapsed = std::chrono::steady_clock::now() - own.since;
-    return ReconstructionUnderWay{own.spp, std::chrono::duration<double>(elapsed).count(), own.share};
+    return RunningReconstruction{own.spp, std::chrono::duration<double>(elapsed).count(), own.share};
 }
 
-void Session::give_up_reconstruction(int pane_index) {
+void Session::stop_reconstruction(int pane_index) {
     const std::lock_guard lock(shared_->mutex);
     SessionPane& pane = this->pane(pane_index);
     if (pane.reconstruction.spp == 0 || !pane.latest)
@@ -175,9 +175,9 @@ std::string Session::failure(int pane) const {
     return shared_->rendering(pane).failure;
 }
 
-float Session::pass_share(int pane) const {
+float Session::pass_progress(int pane) const {
     const std::lock_guard lock(shared_->mutex);
-    return shared_->rendering(pane).pass_share;
+    return shared_->rendering(pane).pass_progress;
 }
 
 std::vector<std::string> Session::take_messages() {

@@ -41,7 +41,7 @@ struct RenderRequest {
 };
 
 /// A running reconstruction.
-struct ReconstructionUnderWay {
+struct RunningReconstruction {
     int spp = 0;        ///< samples per pixel of its snapshot
     double seconds = 0; ///< wall time since its start
     float share = 0;    ///< finished fraction of its steps, [0, 1]
@@ -75,9 +75,9 @@ public:
     void set_reconstruction(int pane, const ReconstructionSettings& settings);
 
     /// Returns the pane's running reconstruction, or empty.
-    std::optional<ReconstructionUnderWay> reconstructing(int pane) const;
+    std::optional<RunningReconstruction> reconstructing(int pane) const;
     /// Stops the running reconstruction. The newest snapshot stays without one until the settings change.
-    void give_up_reconstruction(int pane);
+    void stop_reconstruction(int pane);
 
     void set_paused(bool paused);
     bool paused() const;
@@ -95,7 +95,7 @@ public:
     std::string failure(int pane) const;
 
     /// Returns the finished fraction of the pane's current or last pass, [0, 1].
-    float pass_share(int pane) const;
+    float pass_progress(int pane) const;
 
     /// Returns the error messages of workers since the last call, with pixel, sample and seed where they are
     /// known.

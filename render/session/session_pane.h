@@ -70,7 +70,7 @@ private:
     ReconstructionSettings settings_;
 };
 
-/// A pane of a session. Guarded by SessionState::mutex, except `pass_share`, `own` and `solver`.
+/// A pane of a session. Guarded by SessionState::mutex, except `pass_progress`, `own` and `solver`.
 struct SessionPane {
     RenderRequest request;
     std::uint64_t generation = 0; // of the request; 0: none yet
@@ -81,7 +81,7 @@ struct SessionPane {
     std::string failure;   // its message
     int steps = 0;         // requested passes, regardless of pace and pause
 
-    std::atomic<float> pass_share = 0; // finished fraction of the current pass
+    std::atomic<float> pass_progress = 0; // finished fraction of the current pass
 
     PaneReconstruction reconstruction;
     PaneRender own;    // render thread

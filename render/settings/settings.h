@@ -141,13 +141,13 @@ inline bool has_positions(const RenderSettings& s) {
 }
 
 /// Returns whether tiles can be split. N-rooks patterns cannot.
-inline bool has_tiles_to_cut(const RenderSettings& s) {
+inline bool can_split_tiles(const RenderSettings& s) {
     return s.method == Method::gpr || (s.method == Method::pr && s.pattern == Pattern::tile);
 }
 
 /// Returns whether the pilot pass measures the gain of path reuse (learned_reuse.h). It measures gradients, and
 /// basis components do not support pixels without reuse.
-inline bool finds_gain_of_sharing(const RenderSettings& s) {
+inline bool measures_reuse_gain(const RenderSettings& s) {
     return s.method == Method::gpr && s.adapt_tile && s.tile > 1 && !is_expanded(s);
 }
 

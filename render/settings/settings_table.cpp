@@ -189,7 +189,7 @@ std::vector<Setting> settings_of(RenderSettings& s) {
         {"adapt_tile", "Adaptive tiles",
          "Splits a tile where reusing paths costs more than it gains. With G-PR, pixels that gain nothing from "
          "reuse trace more paths of their own instead.",
-         Setting::Switch{&s.adapt_tile}, has_tiles_to_cut(s)},
+         Setting::Switch{&s.adapt_tile}, can_split_tiles(s)},
         {"pattern", "Pattern", "Pixels that reuse each other's paths.", one_of(patterns, s.pattern),
          s.method == Method::pr},
         {"roulette", "Roulette", "Russian roulette that decides which base paths are reused.",

@@ -36,7 +36,7 @@ Setting seed_setting(std::uint64_t& seed);
 Setting spp_setting(int& spp, int least = 1);
 /// @param least  lower limit; 0 stands for one thread per hardware thread
 Setting threads_setting(int& threads, int least = 0);
-Setting size_setting(glm::ivec2& size, int most = most_image_edge);
+Setting size_setting(glm::ivec2& size, int most = max_image_edge);
 
 // Methods and norms, in the order of their enums.
 std::span<const SettingChoice> method_choices();

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "render/surface/diffuse.h"
-#include "render/surface/further_kinds.h"
 #include "render/surface/interfaces.h"
 #include "render/surface/plastic.h"
 #include "render/surface/scattering.h"
+#include "render/surface/uncommon_bsdf.h"
 
 #include <optional>
 #include <string_view>
@@ -26,31 +26,31 @@ namespace tessera {
 /// arrives along to_next and leaves along to_previous.
 struct Bsdf {
     std::variant<Diffuse, RoughDiffuse, RoughConductor, SmoothConductor, SmoothDielectric, RoughDielectric,
-                 ThinDielectric, Plastic, Phong, FurtherKinds>
+                 ThinDielectric, Plastic, Phong, UncommonBsdf>
         kind = Diffuse{};
 
     /// Normal before a bump or normal map bent the frame, in the frame. A direction above one surface and below
     /// the other is rejected to prevent light leaks.
-    glm::vec3 unbent_normal{0, 0, 1};
+    glm::vec3 interpolated_normal{0, 0, 1};
     /// Squared roughness of the shadowing term that softens the bump terminator [Estevez 2019]. 0: no softening;
     /// negative: the frame is not bent.
     float terminator = -1;
-    bool is_bent() const { return terminator >= 0; }
+    bool has_relief() const { return terminator >= 0; }
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
         BsdfValue v = std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
-        if (is_bent()) [[unlikely]]
+        if (has_relief()) [[unlikely]]
             v = is_cut(to_previous, to_next) ? BsdfValue{} : BsdfValue{v.f_cos * shadowing(to_next), v.pdf_w};
         return v;
     }
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
-        if (is_bent()) [[unlikely]]
+        if (has_relief()) [[unlikely]]
             return sample_bent(to_previous, lobe, u);
         return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
     }
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
         DeltaValue v = std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
-        if (is_bent())
+        if (has_relief())
             v = is_cut(to_previous, v.to_next)
                     ? DeltaValue{}
                     : DeltaValue{v.to_next, v.value * shadowing(v.to_next), v.probability};
@@ -77,8 +77,8 @@ struct Bsdf {
 
 private:
     bool is_cut(glm::vec3 to_previous, glm::vec3 to_next) const {
-        return to_previous.z * glm::dot(unbent_normal, to_previous) <= 0 ||
-               to_next.z * glm::dot(unbent_normal, to_next) <= 0;
+        return to_previous.z * glm::dot(interpolated_normal, to_previous) <= 0 ||
+               to_next.z * glm::dot(interpolated_normal, to_next) <= 0;
     }
     float shadowing(glm::vec3 to_next) const;
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;

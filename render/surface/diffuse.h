@@ -46,10 +46,10 @@ struct RoughDiffuse {
 
 /// The modified Phong model [Lafortune 1994]: a diffuse part and a lobe about the mirror direction, on the upper
 /// side only.
-struct Phong : DiffuseAndLobe {
+struct Phong : DiffuseSpecular {
     float exponent;
 
-    Phong(float exponent_, Rgb diffuse, Rgb specular) : DiffuseAndLobe(diffuse, specular), exponent(exponent_) {}
+    Phong(float exponent_, Rgb diffuse, Rgb specular) : DiffuseSpecular(diffuse, specular), exponent(exponent_) {}
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;

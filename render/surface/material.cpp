@@ -65,29 +65,29 @@ Bsdf resolve(const PhongMaterial& m, const SurfacePoint& at) {
 }
 
 Bsdf resolve(const MixtureMaterial& m, const SurfacePoint& at) {
-    return {FurtherKinds{Mixture{&m, at}}};
+    return {UncommonBsdf{Mixture{&m, at}}};
 }
 
 Bsdf resolve(const CoatedMaterial& m, const SurfacePoint& at) {
-    return {FurtherKinds{Coated{&m, at}}};
+    return {UncommonBsdf{Coated{&m, at}}};
 }
 
 Bsdf resolve(const PrincipledMaterial& m, const SurfacePoint& at) {
-    return {FurtherKinds{Principled{&m, at}}};
+    return {UncommonBsdf{Principled{&m, at}}};
 }
 
 Bsdf resolve(const ThinPrincipledMaterial& m, const SurfacePoint& at) {
-    return {FurtherKinds{ThinPrincipled{&m, at}}};
+    return {UncommonBsdf{ThinPrincipled{&m, at}}};
 }
 
 Bsdf resolve(const WardMaterial& m, const SurfacePoint& at) {
     const glm::vec2 alpha(m.alpha.scalar(at), m.alpha_v ? m.alpha_v->scalar(at) : m.alpha.scalar(at));
-    return {FurtherKinds{Ward(m.variant, glm::max(alpha, smallest_alpha), factor(m.diffuse_reflectance, at),
+    return {UncommonBsdf{Ward(m.variant, glm::max(alpha, smallest_alpha), factor(m.diffuse_reflectance, at),
                               factor(m.specular_reflectance, at))}};
 }
 
 Bsdf resolve(const DiffuseTransmitterMaterial& m, const SurfacePoint& at) {
-    return {FurtherKinds{DiffuseTransmitter{factor(m.transmittance, at)}}};
+    return {UncommonBsdf{DiffuseTransmitter{factor(m.transmittance, at)}}};
 }
 
 Bsdf resolve(const MediumLayerMaterial& m, const SurfacePoint& at) {
@@ -97,7 +97,7 @@ Bsdf resolve(const MediumLayerMaterial& m, const SurfacePoint& at) {
     else
         sigma_t += sigma_s;
     const Rgb albedo = sigma_s / glm::max(sigma_t, 1e-20f);
-    return {FurtherKinds{MediumLayer{albedo, sigma_t * m.thickness, m.g, m.is_clear}}};
+    return {UncommonBsdf{MediumLayer{albedo, sigma_t * m.thickness, m.g, m.is_clear}}};
 }
 
 std::vector<const Texture*> textures(const DiffuseMaterial& m) {
@@ -117,8 +117,8 @@ std::vector<const Texture*> textures(const PhongMaterial& m) {
 }
 std::vector<const Texture*> textures(const MixtureMaterial& m) {
     std::vector<const Texture*> all;
-    if (m.second_share)
-        all.push_back(&*m.second_share);
+    if (m.blend_weight)
+        all.push_back(&*m.blend_weight);
     for (const std::shared_ptr<const Material>& part : m.parts)
         for (const Texture* t : part->textures())
             all.push_back(t);
@@ -180,9 +180,9 @@ bool is_anisotropic(const ThinPrincipledMaterial& m) {
 } // namespace
 
 float MixtureMaterial::weight(std::size_t part, const SurfacePoint& at) const {
-    if (!second_share)
+    if (!blend_weight)
         return weights[part];
-    const float second = std::clamp(luminance(second_share->evaluate(at)), 0.0f, 1.0f);
+    const float second = std::clamp(luminance(blend_weight->evaluate(at)), 0.0f, 1.0f);
     return part == 1 ? second : 1 - second;
 }
 

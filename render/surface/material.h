@@ -65,7 +65,7 @@ struct MixtureMaterial {
     std::vector<std::shared_ptr<const Material>> parts; ///< transparent ones refract identically
     std::vector<float> weights{};                       ///< one per part; their sum is at most 1
     /// For two parts: the weight of the second (luminance); the first has the rest. Replaces `weights`.
-    std::optional<Texture> second_share{};
+    std::optional<Texture> blend_weight{};
 
     /// Returns the weight of a part.
     float weight(std::size_t part, const SurfacePoint& at) const;
@@ -142,8 +142,8 @@ struct Relief {
     };
     Kind kind = Kind::bump;
     Texture map;
-    float scale = 1;                 ///< factor on the height of a bump map
-    bool softens_terminator = false; ///< applies the shadowing of [Estevez 2019]
+    float scale = 1;                     ///< factor on the height of a bump map
+    bool use_shadowing_function = false; ///< applies the shadowing of [Estevez 2019]
 };
 
 /// The material of a surface, with its textures.

@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-DiffuseAndLobe::DiffuseAndLobe(Rgb diffuse, Rgb specular) {
+DiffuseSpecular::DiffuseSpecular(Rgb diffuse, Rgb specular) {
     const Rgb both = diffuse + specular;
     const float scale = 1 / std::max({both.r, both.g, both.b, 1.0f});
     diffuse_reflectance = diffuse * scale;
@@ -62,17 +62,17 @@ static_assert(std::size(kind_names) + 1 == std::variant_size_v<decltype(Bsdf::ki
 
 constexpr std::string_view further_names[] = {"mixture", "coating",   "principled", "principledthin",
                                               "ward",    "difftrans", "hk"};
-static_assert(std::size(further_names) == std::variant_size_v<decltype(FurtherKinds::kind)>);
+static_assert(std::size(further_names) == std::variant_size_v<decltype(UncommonBsdf::kind)>);
 
 } // namespace
 
 std::string_view kind_name(const Bsdf& bsdf) {
-    const auto* further = std::get_if<FurtherKinds>(&bsdf.kind);
+    const auto* further = std::get_if<UncommonBsdf>(&bsdf.kind);
     return further ? further_names[further->kind.index()] : kind_names[bsdf.kind.index()];
 }
 
 float Bsdf::shadowing(glm::vec3 to_next) const {
-    const float cosine = glm::dot(unbent_normal, to_next);
+    const float cosine = glm::dot(interpolated_normal, to_next);
     const float tan2 = std::max(1 / (cosine * cosine) - 1, 0.0f);
     return 2 / (1 + std::sqrt(1 + terminator * tan2)); // [Estevez 2019, 12.3]
 }

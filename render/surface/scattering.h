@@ -40,12 +40,12 @@ struct BsdfSample {
 };
 
 /// Reflectances of a diffuse part and a glossy lobe, scaled down where their sum exceeds 1.
-struct DiffuseAndLobe {
+struct DiffuseSpecular {
     Rgb diffuse_reflectance{0};
     Rgb specular_reflectance{0};
     float specular_weight = 0; ///< probability of sampling the lobe
 
-    DiffuseAndLobe(Rgb diffuse, Rgb specular);
+    DiffuseSpecular(Rgb diffuse, Rgb specular);
 
     Rgb albedo(glm::vec3) const { return diffuse_reflectance + specular_reflectance; }
 };

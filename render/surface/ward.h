@@ -16,12 +16,12 @@ enum class WardVariant : std::uint8_t { ward, duer, balanced };
 
 /// Ward's model: a diffuse part and a lobe with Gaussian slopes of the half vector, as Mitsuba 0.6's `ward`, on
 /// the upper side only.
-struct Ward : DiffuseAndLobe {
+struct Ward : DiffuseSpecular {
     WardVariant variant;
     glm::vec2 alpha; ///< roughness along tangent and bitangent, > 0
 
     Ward(WardVariant variant_, glm::vec2 alpha_, Rgb diffuse, Rgb specular)
-        : DiffuseAndLobe(diffuse, specular), variant(variant_), alpha(alpha_) {}
+        : DiffuseSpecular(diffuse, specular), variant(variant_), alpha(alpha_) {}
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const;

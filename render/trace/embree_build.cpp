@@ -175,7 +175,7 @@ void ask_for_build(const std::vector<Shape>& shapes, const std::deque<ShapeGroup
     add(shapes);
     for (const ShapeGroup& group : groups)
         add(group.shapes);
-    ask_for_memory(triangles * build_bytes_a_triangle + instances * build_bytes_an_instance,
+    require_memory(triangles * build_bytes_a_triangle + instances * build_bytes_an_instance,
                    std::to_string(triangles) + " triangles in a BVH");
 }
 
@@ -242,9 +242,9 @@ void Intersector::Impl::add_instances(const std::deque<ShapeGroup>& shape_groups
     unsigned first = first_instance;
     for (const ShapeGroup& group : shape_groups) {
         groups.push_back(scene_of(group.shapes, opacities, first));
-        kept.throw_kept();
+        kept.rethrow();
         build(groups.back(), kept);
-        kept.throw_kept();
+        kept.rethrow();
         first_of_group.push_back(first);
         first += static_cast<unsigned>(group.shapes.size());
     }
@@ -269,9 +269,9 @@ Intersector::Intersector(const std::vector<Shape>& shapes, const std::vector<con
     impl_->scene = impl_->scene_of(shapes, opacities, 0);
     impl_->first_instance = static_cast<unsigned>(shapes.size());
     impl_->add_instances(groups, instances, opacities);
-    impl_->kept.throw_kept(); // Embree may have refused a geometry
+    impl_->kept.rethrow(); // Embree may have refused a geometry
     build(impl_->scene, impl_->kept);
-    impl_->kept.throw_kept();
+    impl_->kept.rethrow();
     std::vector<glm::vec3> of_groups;
     for (const ShapeGroup& group : groups)
         of_groups.push_back(extents(group.shapes));

@@ -32,7 +32,7 @@ public:
         if (!first_)
             first_ = std::move(exception);
     }
-    void throw_kept() const {
+    void rethrow() const {
         const std::lock_guard lock(mutex_);
         if (first_)
             std::rethrow_exception(first_);

@@ -16,13 +16,13 @@ struct Ray {
 // Lane arrays have one lane per pixel of a sampling set, for loops that the compiler vectorises. Loops run over
 // whole vectors, up to padded(count). No result depends on the lanes from `count` on.
 
-inline constexpr int lanes_a_vector = 8;
+inline constexpr int lanes_per_vector = 8;
 /// Capacity of lane arrays: at least the pixels of the largest sampling set (checked in
 /// render/estimator/path_reuse.cpp).
-inline constexpr int most_lanes = 37 * lanes_a_vector;
+inline constexpr int most_lanes = 37 * lanes_per_vector;
 
 inline int padded(int lanes) {
-    return (lanes + lanes_a_vector - 1) / lanes_a_vector * lanes_a_vector;
+    return (lanes + lanes_per_vector - 1) / lanes_per_vector * lanes_per_vector;
 }
 
 template <class T>

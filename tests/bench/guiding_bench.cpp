@@ -30,9 +30,9 @@ namespace {
 constexpr glm::ivec2 size(320, 180);
 
 struct Measured {
-    std::vector<RgbImage> pictures; ///< one a seed
-    double cpu_seconds = 0;         ///< of all
-    double left_of_squares = 0;     ///< the sum over all seeds, as in PathGuiding
+    std::vector<RgbImage> pictures;     ///< one a seed
+    double cpu_seconds = 0;             ///< of all
+    double remaining_second_moment = 0; ///< the sum over all seeds, as in PathGuiding
 };
 using ByGuiding = std::array<Measured, 2>; ///< off, on
 
@@ -84,7 +84,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
         Render render(scene, scene->camera(), size, settings);
         const auto left = [&] {
             const PathGuiding* of_last_pass = render.newest_learned()->guiding();
-            return of_last_pass ? of_last_pass->left_of_squares() : 1.0;
+            return of_last_pass ? of_last_pass->remaining_second_moment() : 1.0;
         };
         render.pass(pool);
         render.pass(pool); // the first one that is guided, by what the one before has found
@@ -96,7 +96,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
             Measured& m = found[samples][std::size_t(i % 2)];
             m.pictures.push_back(render.images().primal);
             m.cpu_seconds += render.cpu_seconds();
-            m.left_of_squares += left();
+            m.remaining_second_moment += left();
         }
     }
     fmt::print("of second moments, the first pass finds that guides would leave {:.2f}\n", first_left);
@@ -107,7 +107,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
         fmt::print("{:4} spp: CPU {:.2f} s, x{:.2f} guided; variance {:.4f} -> {:.4f}, times time {:.2f} times "
                    "less; without the worst {:.2f}; {:.2f} left of second moments\n",
                    samples, by[0].cpu_seconds / seeds, cost, off[0], on[0], off[0] / (on[0] * cost),
-                   off[1] / (on[1] * cost), by[1].left_of_squares / seeds);
+                   off[1] / (on[1] * cost), by[1].remaining_second_moment / seeds);
     }
 }
 

@@ -36,14 +36,14 @@ struct Tally {
     int astray = 0;  ///< not back at its own vertices after the shift there and back
 };
 
-class Sharing {
+class WorkDivision {
 public:
-    Sharing(const TestScene& t, ShiftSettings settings, int roulette_depth, TextureFilter filter,
-            bool spares_first = false)
+    WorkDivision(const TestScene& t, ShiftSettings settings, int roulette_depth, TextureFilter filter,
+                 bool first_unfiltered = false)
         : scene_(*t.scene), settings_(settings), tracer_{scene_,
                                                          counters_,
                                                          {t.max_depth, roulette_depth, filter},
-                                                         {filter, spares_first, scene_.camera(), size}},
+                                                         {filter, first_unfiltered, scene_.camera(), size}},
           reuse_(tracer_, settings_) {}
 
     Tally run(int sets) {
@@ -185,7 +185,7 @@ protected:
         s.shift_threshold = GetParam().shift_threshold;
         SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
                      std::to_string(s.shift_distance));
-        const Tally t = Sharing(GetParam(), s, roulette_depth, filter).run(40);
+        const Tally t = WorkDivision(GetParam(), s, roulette_depth, filter).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
         EXPECT_LE(t.apart, 0.001 * t.shared);
@@ -211,7 +211,7 @@ TEST_P(Shares, AreTheSameWhetherASetIsBegunOnceOrForEachPath) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
         const ShiftSettings s{kind, GetParam().shift_threshold, GetParam().shift_distance};
-        Sharing sharing(GetParam(), s, 0, TextureFilter::path);
+        WorkDivision sharing(GetParam(), s, 0, TextureFilter::path);
         const auto once = sharing.share_sets(40, false), anew = sharing.share_sets(40, true);
         EXPECT_TRUE(once.radiance == anew.radiance) << static_cast<int>(kind);
         EXPECT_LE(once.rays, anew.rays);
@@ -247,12 +247,12 @@ TEST(SharesInMirrors, AreTheSameWhateverIsFilteredThere) {
     const TestScene scene{"beyond_mirrors", b.build(), 7};
     for (const ShiftKind kind : {ShiftKind::half_vector, ShiftKind::replay, ShiftKind::replay_reconnection})
         for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path})
-            for (const bool spares_first : {false, true}) {
-                const Tally t = Sharing(scene, {kind, 0.001f, 0}, 0, filter, spares_first).run(60);
+            for (const bool first_unfiltered : {false, true}) {
+                const Tally t = WorkDivision(scene, {kind, 0.001f, 0}, 0, filter, first_unfiltered).run(60);
                 EXPECT_GT(t.shared, 200);
                 EXPECT_EQ(t.lost, 0);
-                EXPECT_LE(t.unequal, 0.04 * t.shared) << static_cast<int>(kind) << ", spares " << spares_first;
-                EXPECT_LE(t.apart, 0.001 * t.shared) << static_cast<int>(kind) << ", spares " << spares_first;
+                EXPECT_LE(t.unequal, 0.04 * t.shared) << static_cast<int>(kind) << ", spares " << first_unfiltered;
+                EXPECT_LE(t.apart, 0.001 * t.shared) << static_cast<int>(kind) << ", spares " << first_unfiltered;
             }
 }
 

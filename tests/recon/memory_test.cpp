@@ -23,16 +23,20 @@ TEST(ReconstructionMemory, IsAboutWhatIsAnnounced) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers have their own allocators";
 #endif
-    for (const auto& [width, parts] : {std::pair{480, 0}, {499, 0}, {480, 4}}) { // 499 is solved on 500 columns
+    for (const auto& [width, components] :
+         {std::pair{480, 0}, {499, 0}, {480, 4}}) { // 499 is solved on 500 columns
         GradientImages images = noisy_images(width, 200);
         images.patch = 3;
-        if (parts == 0)
+        if (components == 0)
             add_fireflies(images, 8);
-        for (int l = 0; l < parts; ++l)
-            images.parts.push_back({Image<float>(width, 200, 0.5f), images.primal, images.dx, images.dy,
-                                    images.primal_variance, images.dx_variance, images.dy_variance});
-        const ReconstructionSize size{
-            .width = width, .height = 200, .has_gradients = true, .is_demodulated = false, .parts = parts};
+        for (int l = 0; l < components; ++l)
+            images.components.push_back({Image<float>(width, 200, 0.5f), images.primal, images.dx, images.dy,
+                                         images.primal_variance, images.dx_variance, images.dy_variance});
+        const ReconstructionSize size{.width = width,
+                                      .height = 200,
+                                      .has_gradients = true,
+                                      .is_demodulated = false,
+                                      .components = components};
         for (const Norm norm : all_norms) {
             if (norm == Norm::oidn)
                 continue; // needs a library that may be missing
@@ -47,9 +51,9 @@ TEST(ReconstructionMemory, IsAboutWhatIsAnnounced) {
             };
             const Reconstruction result = reconstructor.reconstruct(images, {norm, 0.2f}, watched);
             const double taken = static_cast<double>(std::max(most, bytes_in_use()) - before);
-            EXPECT_GT(announced, 0.95 * taken) << to_string(norm) << " " << width << " " << parts;
+            EXPECT_GT(announced, 0.95 * taken) << to_string(norm) << " " << width << " " << components;
             const double image = static_cast<double>(sizeof(Rgb)) * width * 200;
-            if (parts == 0) { // components of a basis have no fireflies, for which memory is announced
+            if (components == 0) { // components of a basis have no fireflies, for which memory is announced
                 EXPECT_LT(announced, 1.4 * taken + 1.1 * image) << to_string(norm) << " " << width;
             }
             // Solvers that it has are not counted again.
@@ -63,7 +67,7 @@ TEST(ReconstructionMemory, IsAboutWhatIsAnnounced) {
             const std::size_t after = bytes_in_use();
             reconstructor.reconstruct(images, {norm, 0.2f}, watched);
             const double more = static_cast<double>(std::max(most, bytes_in_use()) - then);
-            EXPECT_GT(again + kept, 0.95 * more) << to_string(norm) << " " << width << " " << parts;
+            EXPECT_GT(again + kept, 0.95 * more) << to_string(norm) << " " << width << " " << components;
             EXPECT_NEAR(static_cast<double>(after - then), static_cast<double>(reconstructor.bytes_kept()),
                         20.0 * width * 200) // the picture itself, and a few vectors
                 << to_string(norm);

@@ -27,14 +27,14 @@ RgbImage redistributed(const RgbImage& energy, RgbImage picture, const FeatureIm
 /// Pixels may get any amount of energy from pixels with similar features.
 GuidedParameters without_limit() {
     GuidedParameters parameters;
-    parameters.most_added = 1e6f;
+    parameters.largest_addition = 1e6f;
     return parameters;
 }
 
 /// Pixels get no energy from pixels with similar features: all of it goes around.
 GuidedParameters around_alone() {
     GuidedParameters parameters;
-    parameters.most_added = 0;
+    parameters.largest_addition = 0;
     return parameters;
 }
 

@@ -1,9 +1,9 @@
 // Images and measures that the tests of reconstructions share.
 #pragma once
 
-#include "recon/image.h"
 #include "recon/guided/feature_kernels.h"
 #include "recon/guided/joint_filter.h"
+#include "recon/image.h"
 #include "recon/local_brightness.h"
 
 #include <algorithm>
@@ -160,7 +160,7 @@ inline GradientImages noisy_images(int width, int height, float scale = 1, std::
     const RgbImage half = random_image(width, height, seed + 1000, 0, scale);
     images.halves = {half, half, half};
     images.features = {RgbImage(width, height, Rgb(0.5f)), RgbImage(width, height), Image<float>(width, height, 1),
-                     Image<float>(width, height, 1)};
+                       Image<float>(width, height, 1)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             images.halves.primal(x, y) *= 0.1f;
@@ -184,7 +184,7 @@ inline void add_fireflies(GradientImages& images, int samples, std::size_t strid
         images.brightest.primal.data()[i] += Rgb(9 * n);
         images.primal.data()[i] += Rgb(9);
         if (!images.primal_variance.empty())
-            images.primal_variance.data()[i] += 3 * 81 * images.primal_variance.data()[i] ;
+            images.primal_variance.data()[i] += 3 * 81 * images.primal_variance.data()[i];
     }
 }
 
@@ -222,7 +222,7 @@ inline Image<float> local_brightness_of(const RgbImage& picture, const FeatureIm
                                         const ParallelFor& parallel_for = serial_for) {
     Image<float> light(picture.width(), picture.height());
     for (std::size_t i = 0; i < light.size(); ++i)
-        light.data()[i] = brightness_of(picture.data()[i] / seen_albedo(features, i, parameters.least_albedo));
+        light.data()[i] = brightness_of(picture.data()[i] / feature_albedo(features, i, parameters.least_albedo));
     return local_mean_brightness(std::move(light), parameters.local_radius, parallel_for);
 }
 

@@ -117,7 +117,7 @@ TEST(LightTable, PowerDecidesWithoutFactorsAndUnlitTrianglesAreLeftOut) {
 /// How often each light is chosen, in the order of LightTable::powers().
 std::vector<double> shares_of(const Scene& scene) {
     const std::vector<double>& power = scene.lights().powers();
-    const std::vector<double> factors = learn_light_factors(scene);
+    const std::vector<double> factors = learn_light_selection(scene);
     std::vector<double> shares(power.size());
     std::transform(power.begin(), power.end(), factors.begin(), shares.begin(), std::multiplies<>());
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
@@ -146,7 +146,7 @@ TEST(LightChoice, TheSkyDoesNotTakeAllSamplesFromTheSpots) {
     EXPECT_GT(shares[0], 0.3);
     EXPECT_GT(shares[1], 0.3);
     EXPECT_GT(shares[2], 0.1) << "it may light what no path has seen";
-    EXPECT_EQ(learn_light_factors(*scene), learn_light_factors(*spots_under_the_sky()));
+    EXPECT_EQ(learn_light_selection(*scene), learn_light_selection(*spots_under_the_sky()));
 }
 
 TEST(LightChoice, ALampThatNobodySeesGetsFewSamples) {
@@ -177,7 +177,7 @@ TEST(LightChoice, FactorsDoNotChangeTheMean) {
         }
         return sum / count;
     };
-    const double by_power = estimate({}), learnt = estimate(learn_light_factors(*scene));
+    const double by_power = estimate({}), learnt = estimate(learn_light_selection(*scene));
     EXPECT_NEAR(learnt / by_power, 1, 0.02);
     EXPECT_NEAR(estimate({3, 40, 0.2, 1, 5, 0.5}) / by_power, 1, 0.02);
 }

@@ -15,7 +15,7 @@ namespace tessera::test {
 namespace {
 
 /// Of large pictures a first pass and the pilot before it take long: both tell how far they are.
-TEST(PassShare, RisesFromThePilotOnTo1) {
+TEST(PassShard, RisesFromThePilotOnTo1) {
     const auto scene = Room().build();
     RenderSettings settings;
     settings.method = Method::gpr;

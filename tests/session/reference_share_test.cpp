@@ -52,13 +52,13 @@ struct Shares : testing::Test {
         ReferenceRender render(path, subject, of_share, pool);
         EXPECT_EQ(render.spp_resumed(), end_at);
         EXPECT_TRUE(render.run([](const ReferenceRender&) { return true; }));
-        render.finish_share();
+        render.finish_shard();
         EXPECT_FALSE(fs::exists(reference_checkpoint(path)));
         return path;
     }
     std::string refusal(const std::vector<fs::path>& files) const {
         try {
-            merge_shares(files, file("none.exr"));
+            merge_shards(files, file("none.exr"));
         } catch (const std::runtime_error& error) {
             EXPECT_FALSE(fs::exists(file("none.exr")));
             return error.what();
@@ -77,7 +77,7 @@ TEST_F(Shares, OneOfOneIsTheWhole) {
     for (const Method method : all_methods) {
         recipe.settings.method = method;
         const ReferenceImage expected = whole("whole.exr");
-        const ReferenceImage merged = merge_shares({share(1, 1)}, file("merged.exr"));
+        const ReferenceImage merged = merge_shards({share(1, 1)}, file("merged.exr"));
         EXPECT_EQ(checksum_of(merged), checksum_of(expected)) << short_name(method);
         EXPECT_EQ(merged.settings, expected.settings);
         EXPECT_EQ(merged.camera, expected.camera);
@@ -90,14 +90,14 @@ TEST_F(Shares, ComeToTheSameBitsInWhateverOrder) {
     std::vector<fs::path> files;
     for (int number = 1; number <= 5; ++number)
         files.push_back(share(number, 5));
-    const std::uint32_t expected = checksum_of(merge_shares(files, file("merged.exr")));
+    const std::uint32_t expected = checksum_of(merge_shards(files, file("merged.exr")));
     EXPECT_EQ(checksum_of(read_reference(file("merged.exr"))), expected);
     std::reverse(files.begin(), files.end());
     for (fs::path& path : files) // and rendered anew, in pieces
         fs::remove(path);
     for (int number = 5; number >= 1; --number)
         share(number, 5, {}, 2);
-    EXPECT_EQ(checksum_of(merge_shares(files, file("again.exr"))), expected);
+    EXPECT_EQ(checksum_of(merge_shards(files, file("again.exr"))), expected);
 }
 
 /// Of methods that learn nothing from earlier passes the shares' samples are those of the whole: but for the order
@@ -109,7 +109,7 @@ TEST_F(Shares, HaveTheSamplesOfTheWhole) {
     std::vector<fs::path> files;
     for (int number = 1; number <= 5; ++number)
         files.push_back(share(number, 5));
-    const ReferenceImage merged = merge_shares(files, file("merged.exr"));
+    const ReferenceImage merged = merge_shards(files, file("merged.exr"));
     for (std::size_t i = 0; i < expected.mean.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const float value = expected.mean.data()[i][c];
@@ -130,7 +130,7 @@ TEST_F(Shares, AreUnbiasedHoweverMany) {
         std::vector<fs::path> files;
         for (int number = 1; number <= 50; ++number)
             files.push_back(share(number, 50, fmt::format("{}-{}.share", render, number)));
-        const ReferenceImage merged = merge_shares(files, file(fmt::format("merged-{}.exr", render)));
+        const ReferenceImage merged = merge_shards(files, file(fmt::format("merged-{}.exr", render)));
         EXPECT_EQ(variance_of(merged).size(), expected.mean.size());
         double squares = 0;
         for (std::size_t i = 0; i < expected.mean.size(); ++i) {

@@ -78,7 +78,7 @@ std::shared_ptr<const Material> SceneBuilder::copy_of(int material) const {
 
 int SceneBuilder::blend(int first, int second, float share_of_second) {
     MixtureMaterial m{{copy_of(first), copy_of(second)}};
-    m.second_share = Texture(Rgb(share_of_second));
+    m.blend_weight = Texture(Rgb(share_of_second));
     const bool two_sided = m.parts[0]->two_sided && m.parts[1]->two_sided;
     return material({"blend", m, two_sided});
 }

@@ -95,7 +95,7 @@ inline DielectricMaterial glass(float alpha, float eta = 1.5f) {
 
 inline MixtureMaterial blend(std::shared_ptr<const Material> a, std::shared_ptr<const Material> b, float share) {
     MixtureMaterial m{{std::move(a), std::move(b)}};
-    m.second_share = Texture(Rgb(share));
+    m.blend_weight = Texture(Rgb(share));
     return m;
 }
 

@@ -22,57 +22,23 @@ std::vector<Case> cases() {
             {"rough_plastic_010", [=] { return Bsdf{plastic(ggx, 0.1f, Rgb(0.8f, 0.4f, 0.1f), true)}; }},
             {"rough_plastic_040", [=] { return Bsdf{plastic(beckmann, 0.4f, Rgb(0.9f), false)}; }},
             {"diffuse", [=] { return Bsdf{Diffuse{orange}}; }},
-            {"rough_diffuse_020",
-             [=] {
-                 return Bsdf{RoughDiffuse{orange, 0.2f, false}};
-             }},
-            {"rough_diffuse_090",
-             [=] {
-                 return Bsdf{RoughDiffuse{Rgb(1), 0.9f, false}};
-             }},
-            {"rough_diffuse_fast",
-             [=] {
-                 return Bsdf{RoughDiffuse{orange, 0.5f, true}};
-             }},
+            {"rough_diffuse_020", [=] { return Bsdf{RoughDiffuse{orange, 0.2f, false}}; }},
+            {"rough_diffuse_090", [=] { return Bsdf{RoughDiffuse{Rgb(1), 0.9f, false}}; }},
+            {"rough_diffuse_fast", [=] { return Bsdf{RoughDiffuse{orange, 0.5f, true}}; }},
             {"ggx_010", [=] { return Bsdf{rough(ggx, 0.1f)}; }},
             {"ggx_050", [=] { return Bsdf{rough(ggx, 0.5f)}; }},
             {"ggx_100", [=] { return Bsdf{rough(ggx, 1)}; }},
             {"beckmann_010", [=] { return Bsdf{rough(beckmann, 0.1f)}; }},
             {"beckmann_050", [=] { return Bsdf{rough(beckmann, 0.5f)}; }},
             {"beckmann_100", [=] { return Bsdf{rough(beckmann, 1)}; }},
-            {"brushed_ggx",
-             [=] {
-                 return Bsdf{RoughConductor{brushed(ggx), copper_eta, copper_k, Rgb(1)}};
-             }},
+            {"brushed_ggx", [=] { return Bsdf{RoughConductor{brushed(ggx), copper_eta, copper_k, Rgb(1)}}; }},
             {"brushed_beckmann",
-             [=] {
-                 return Bsdf{RoughConductor{brushed(beckmann), copper_eta, copper_k, Rgb(1)}};
-             }},
-            {"brushed_glass",
-             [=] {
-                 return Bsdf{RoughDielectric{brushed(ggx), 1.5f}};
-             },
-             1.5f},
-            {"glass_ggx_020",
-             [=] {
-                 return Bsdf{RoughDielectric{{ggx, 0.2f}, 1.5f}};
-             },
-             1.5f},
-            {"glass_ggx_060",
-             [=] {
-                 return Bsdf{RoughDielectric{{ggx, 0.6f}, 1.5f, Rgb(1), orange}};
-             },
-             1.5f},
-            {"glass_beckmann_030",
-             [=] {
-                 return Bsdf{RoughDielectric{{beckmann, 0.3f}, 1.33f}};
-             },
-             1.33f},
-            {"bubble",
-             [=] {
-                 return Bsdf{RoughDielectric{{ggx, 0.4f}, 1 / 1.5f}};
-             },
-             1 / 1.5f},
+             [=] { return Bsdf{RoughConductor{brushed(beckmann), copper_eta, copper_k, Rgb(1)}}; }},
+            {"brushed_glass", [=] { return Bsdf{RoughDielectric{brushed(ggx), 1.5f}}; }, 1.5f},
+            {"glass_ggx_020", [=] { return Bsdf{RoughDielectric{{ggx, 0.2f}, 1.5f}}; }, 1.5f},
+            {"glass_ggx_060", [=] { return Bsdf{RoughDielectric{{ggx, 0.6f}, 1.5f, Rgb(1), orange}}; }, 1.5f},
+            {"glass_beckmann_030", [=] { return Bsdf{RoughDielectric{{beckmann, 0.3f}, 1.33f}}; }, 1.33f},
+            {"bubble", [=] { return Bsdf{RoughDielectric{{ggx, 0.4f}, 1 / 1.5f}}; }, 1 / 1.5f},
             {"phong_5", [=] { return Bsdf{Phong(5, Rgb(0.5f, 0.4f, 0.3f), Rgb(0.2f, 0.4f, 0.7f))}; }},
             {"phong_80", [=] { return Bsdf{Phong(80, Rgb(0), Rgb(1))}; }},
             {"principled", [=] { return resolved(PrincipledMaterial{}); }},
@@ -81,37 +47,20 @@ std::vector<Case> cases() {
             {"principled_glass", [=] { return resolved(principled(0.2f, 0.7f)); }, 1.5f},
             {"thin_principled", [=] { return resolved(thin_principled(0.4f, 0.8f)); }, 1, true, false},
             {"thin_principled_glass", [=] { return resolved(thin_principled(1, 0)); }, 1, true, false},
-            {"ward",
-             [=] {
-                 return Bsdf{FurtherKinds{Ward(WardVariant::ward, {0.1f, 0.4f}, orange, Rgb(0.2f))}};
-             }},
+            {"ward", [=] { return Bsdf{UncommonBsdf{Ward(WardVariant::ward, {0.1f, 0.4f}, orange, Rgb(0.2f))}}; }},
             {"ward_duer",
-             [=] {
-                 return Bsdf{FurtherKinds{Ward(WardVariant::duer, {0.3f, 0.2f}, orange, Rgb(0.1f))}};
-             }},
+             [=] { return Bsdf{UncommonBsdf{Ward(WardVariant::duer, {0.3f, 0.2f}, orange, Rgb(0.1f))}}; }},
             {"ward_balanced",
-             [=] {
-                 return Bsdf{FurtherKinds{Ward(WardVariant::balanced, {0.15f, 0.5f}, Rgb(0), Rgb(0.9f))}};
-             }},
-            {"difftrans", [=] { return Bsdf{FurtherKinds{DiffuseTransmitter{orange}}}; }, 1, true},
-            {"layer",
-             [=] {
-                 return Bsdf{FurtherKinds{MediumLayer{orange, Rgb(0.5f, 1, 2), 0, true}}};
-             },
-             1, true},
-            {"layer_forward",
-             [=] {
-                 return Bsdf{FurtherKinds{MediumLayer{orange, Rgb(0.2f), 0.7f, false}}};
-             },
-             1, true},
+             [=] { return Bsdf{UncommonBsdf{Ward(WardVariant::balanced, {0.15f, 0.5f}, Rgb(0), Rgb(0.9f))}}; }},
+            {"difftrans", [=] { return Bsdf{UncommonBsdf{DiffuseTransmitter{orange}}}; }, 1, true},
+            {"layer", [=] { return Bsdf{UncommonBsdf{MediumLayer{orange, Rgb(0.5f, 1, 2), 0, true}}}; }, 1, true},
+            {"layer_forward", [=] { return Bsdf{UncommonBsdf{MediumLayer{orange, Rgb(0.2f), 0.7f, false}}}; }, 1,
+             true},
             {"blend", [=] { return resolved(blend(diffuse, metal, 0.3f)); }},
             {"blend_mirror", [=] { return resolved(blend(metal, mirror, 0.6f)); }},
             {"blend_black", [=] { return resolved(blend(metal, black, 0.6f)); }},
             {"blend_glass", [=] { return resolved(blend(diffuse, shared(glass(0.4f)), 0.7f)); }, 1.5f},
-            {"mixture",
-             [=] {
-                 return resolved(MixtureMaterial{{diffuse, metal, mirror}, {0.2f, 0.3f, 0.4f}});
-             }},
+            {"mixture", [=] { return resolved(MixtureMaterial{{diffuse, metal, mirror}, {0.2f, 0.3f, 0.4f}}); }},
             {"coated_diffuse", [=] { return resolved(coated(diffuse, Rgb(0.5f, 1, 2))); }},
             {"coated_metal", [=] { return resolved(coated(metal, Rgb(0), Rgb(0))); }},
             {"coated_mixture", [=] { return resolved(coated(shared(blend(metal, mirror, 0.5f)), Rgb(0.1f))); }}};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/charts/line_look.h"
+#include "ui/charts/line_style.h"
 
 #include <string>
 #include <string_view>
@@ -59,7 +59,7 @@ struct ChartSeries {
     /// Whether the series is a horizontal line at the first point's y, across the plot and without markers.
     bool is_level = false;
     bool is_dense = false; ///< whether only the last point gets a marker
-    LineLook look{};       ///< without a method, to_svg uses a dashed line if level, else a marker by the label
+    LineStyle look{};      ///< without a method, to_svg uses a dashed line if level, else a marker by the label
 };
 
 /// One plot: axes and series.

@@ -103,7 +103,7 @@ void draw_plot(const ScreenRect& where, const ChartPlot& plot, std::span<const I
             points.push_back({x_of(p.x, frame, axes), y_of(p.y, frame, axes)});
             draw_bar(p, frame, axes, with_alpha(colours[i], 0.45f));
         }
-        const LineLook& look = series.look;
+        const LineStyle& look = series.look;
         draw_dashed(points, dashes_of(look), colours[i], std::max(font / 8, 1.0f));
         if (!points.empty())
             draw_marker(points.back(), look.marker, font * 0.22f, colours[i]);

@@ -39,8 +39,8 @@ std::string chart_svg(const ViewerState& state);
 
 /// Returns the chosen chart. A chart of errors or efficiencies has one plot. Each pane has a line for each
 /// reconstruction that it has used, or one empty line; without a reference, the lines show estimated errors of
-/// raw samples. A chart of shifts has a plot for each of shifting_panes(), with a line for each of
-/// seen_outcomes().
+/// raw samples. A chart of shifts has a plot for each of panes_with_shifts(), with a line for each of
+/// occurred_outcomes().
 Chart viewer_chart(const ViewerState& state);
 
 /// Returns the limitations of the errors in the chart: estimates, the reference's own error, skipped pixels.
@@ -48,7 +48,7 @@ Chart viewer_chart(const ViewerState& state);
 std::string chart_caveat(const ViewerState& state);
 
 /// Returns the indices of the panes that have shifted paths.
-std::vector<std::size_t> shifting_panes(const ViewerState& state);
+std::vector<std::size_t> panes_with_shifts(const ViewerState& state);
 
 /// Returns "2  G-PR", with the settings that differ from those of other panes: "2  G-PR, tile 6".
 std::string pane_name(const ViewerState& state, std::size_t pane);
@@ -57,7 +57,7 @@ std::string pane_name(const ViewerState& state, std::size_t pane);
 std::vector<ImU32> line_colours(const ViewerState& state);
 
 /// Returns the outcomes that occurred among the shifts of all panes; empty: there were no shifts.
-std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state);
+std::vector<ShiftOutcome> occurred_outcomes(const ViewerState& state);
 
 /// Returns the luminance histogram of the active pane's picture; without series if it is not measured.
 ChartPlot histogram_plot(const ViewerState& state);

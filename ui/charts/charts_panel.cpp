@@ -117,7 +117,7 @@ void draw_shares(Controls& controls, const ViewerState& state, const Chart& char
                  const std::vector<ImU32>& colours) {
     const float font = ImGui::GetFontSize();
     const auto column = [&](std::size_t plot) { return font * (7.5f + 4 * static_cast<float>(plot)); };
-    const std::vector<std::size_t> panes = shifting_panes(state);
+    const std::vector<std::size_t> panes = panes_with_shifts(state);
     for (std::size_t plot = 0; plot < panes.size(); ++plot) {
         ImGui::SetCursorPosX(column(plot));
         ImGui::TextDisabled("%s", pane_name(state, panes[plot]).c_str());
@@ -161,7 +161,7 @@ float chart_height(const ViewerState& state) {
     const float font = ImGui::GetFontSize();
     if (state.layout.chart_kind != ChartKind::shifts)
         return font * plot_height;
-    const std::size_t plots = shifting_panes(state).size();
+    const std::size_t plots = panes_with_shifts(state).size();
     return font * (plots > 1 ? small_plot_height * static_cast<float>(plots) : plot_height);
 }
 

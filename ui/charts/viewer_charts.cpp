@@ -91,7 +91,7 @@ std::vector<PaneLine> error_lines(const ViewerState& state) {
 }
 
 /// Returns a style with dashes by norm. The marker distinguishes panes with the same method.
-LineLook look_of(const ViewerState& state, const PaneLine& line) {
+LineStyle look_of(const ViewerState& state, const PaneLine& line) {
     const PaneSettings settings = settings_of(state, line);
     int marker = 0;
     for (std::size_t i = 0; i < line.pane; ++i)
@@ -123,8 +123,8 @@ ChartPlot shift_plot(const ViewerState& state, std::size_t pane) {
     const std::vector<ShiftPoint>& points = shifts_of(state, pane).points();
     const std::string name = method_name(pane, points.back().method);
     ChartPlot plot = empty_plot(state, name + "  % of shifts", Scale::log);
-    for (ShiftOutcome outcome : seen_outcomes(state)) {
-        ChartSeries series{in_words(to_string(outcome)), {}, false, true};
+    for (ShiftOutcome outcome : occurred_outcomes(state)) {
+        ChartSeries series{label_of_identifier(to_string(outcome)), {}, false, true};
         for (const ShiftPoint& p : points)
             series.points.push_back({x_of(state, p), 100 * p.shares[static_cast<std::size_t>(outcome)], 0});
         plot.series.push_back(std::move(series));
@@ -161,7 +161,7 @@ std::string pane_name(const ViewerState& state, std::size_t pane) {
 std::string chart_caveat(const ViewerState& state) {
     if (!state.companions.reference)
         return "~: estimated error of raw samples, from their own variance; bias is not seen.";
-    std::string text = caveat_of(*state.companions.reference);
+    std::string text = reference_caveat(*state.companions.reference);
     for (std::size_t i = 0; i < state.panes.size(); ++i) {
         const std::vector<ErrorCurve>& curves = curves_of(state, i);
         const std::size_t all = curves.empty() ? 0 : curves.back().points().back().not_finite;
@@ -176,7 +176,7 @@ double efficiency_of(const ErrorPoint& point) {
     return 1 / (point.error * point.seconds);
 }
 
-std::vector<std::size_t> shifting_panes(const ViewerState& state) {
+std::vector<std::size_t> panes_with_shifts(const ViewerState& state) {
     std::vector<std::size_t> panes;
     for (std::size_t i = 0; i < state.panes.size(); ++i)
         if (!shifts_of(state, i).points().empty())
@@ -184,7 +184,7 @@ std::vector<std::size_t> shifting_panes(const ViewerState& state) {
     return panes;
 }
 
-std::vector<ShiftOutcome> seen_outcomes(const ViewerState& state) {
+std::vector<ShiftOutcome> occurred_outcomes(const ViewerState& state) {
     std::vector<ShiftOutcome> seen;
     for (int i = 0; i < shift_outcome_count; ++i) {
         const bool any =
@@ -202,7 +202,7 @@ Chart viewer_chart(const ViewerState& state) {
     const glm::ivec2 size = state.request_size();
     Chart chart{fmt::format("{}: {}x{}", state.scene_info.name, size.x, size.y), {}};
     if (state.layout.chart_kind == ChartKind::shifts) {
-        for (std::size_t pane : shifting_panes(state))
+        for (std::size_t pane : panes_with_shifts(state))
             chart.plots.push_back(shift_plot(state, pane));
     } else {
         chart.plots.push_back(error_plot(state));
@@ -213,7 +213,7 @@ Chart viewer_chart(const ViewerState& state) {
 std::vector<ImU32> line_colours(const ViewerState& state) {
     std::vector<ImU32> colours;
     if (state.layout.chart_kind == ChartKind::shifts)
-        for (ShiftOutcome outcome : seen_outcomes(state))
+        for (ShiftOutcome outcome : occurred_outcomes(state))
             colours.push_back(readable(outcome_colour(outcome), state.layout.theme));
     else
         for (const PaneLine& line : error_lines(state))

@@ -22,7 +22,7 @@ ImTextureID texture_id(unsigned opengl_name) {
 #endif
 }
 
-void tell_press_positions(PressPositions& by_button) {
+void apply_press_positions(PressPositions& by_button) {
     ImGuiIO& io = ImGui::GetIO();
     for (std::size_t i = 0; i < by_button.size(); ++i)
         if (io.MouseClicked[i] && by_button[i]) {

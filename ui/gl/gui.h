@@ -22,7 +22,7 @@ ImTextureID texture_id(unsigned opengl_name);
 using PressPositions = std::array<std::optional<glm::vec2>, 3>;
 
 /// Tells Dear ImGui these positions for the clicks of the frame that has begun, and clears them.
-void tell_press_positions(PressPositions& by_button);
+void apply_press_positions(PressPositions& by_button);
 
 /// Input that does not come from a window, for the next frame.
 void send_mouse_position(ImVec2 position);

@@ -53,7 +53,7 @@ std::string headline(const Inspection& i) {
         line += " and directly visible emission " + short_text(i.very_direct);
     if (!i.sets.empty() && i.method != Method::pt)
         line += "   |   " + sets_text(i);
-    return line + (i.is_refused ? "   INVALID SAMPLE: not finite" : "");
+    return line + (i.is_invalid ? "   INVALID SAMPLE: not finite" : "");
 }
 
 /// Returns the text that is shown while there is no inspection.

@@ -91,7 +91,7 @@ void cell(const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
 }
 
-void surface_cells(const SeenVertex& x) {
+void surface_cells(const DisplayVertex& x) {
     char position[64];
     std::snprintf(position, sizeof position, "%.3g %.3g %.3g", static_cast<double>(x.position.x),
                   static_cast<double>(x.position.y), static_cast<double>(x.position.z));
@@ -139,7 +139,7 @@ const InspectedShift* chosen_shift(const Inspector& inspector) {
 }
 
 std::string outcome_text(const InspectedShift& s) {
-    return !s.is_tried ? "not tried" : s.from == s.to ? "own" : in_words(to_string(s.outcome));
+    return !s.is_tried ? "not tried" : s.from == s.to ? "own" : label_of_identifier(to_string(s.outcome));
 }
 
 void draw_shift_row(const InspectedShift& s, int row, Inspector& inspector, Controls& controls) {

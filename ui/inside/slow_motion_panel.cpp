@@ -109,7 +109,7 @@ void draw_outcomes(const InspectedSet& set, int k) {
         ImGui::GetWindowDrawList()->AddCircleFilled({at.x + font * 0.3f, at.y + font * 0.55f}, font * 0.28f,
                                                     outcome_colour(static_cast<ShiftOutcome>(i)), 12);
         ImGui::SetCursorScreenPos({at.x + font * 0.8f, at.y});
-        ImGui::Text("%s %d", in_words(to_string(static_cast<ShiftOutcome>(i))).c_str(), counts[i]);
+        ImGui::Text("%s %d", label_of_identifier(to_string(static_cast<ShiftOutcome>(i))).c_str(), counts[i]);
     }
 }
 

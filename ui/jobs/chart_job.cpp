@@ -72,7 +72,7 @@ void ChartJob::ask(Job& job, const PaneState& pane, const std::shared_ptr<const 
     job.ask(
         request,
         [request, snapshot = pane.snapshot](std::stop_token) {
-            work_in_background();
+            lower_priority();
             return measure(*snapshot, request);
         },
         wake);

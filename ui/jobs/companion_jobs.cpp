@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds wake_interval(100); // shortest time between two progress reports
 
-std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadWatch& watch) {
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadProgress& watch) {
     const ExrFile exr = read_exr(file, watch, {"", half_names[0], half_names[1]});
     std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < halves.size(); ++i)
@@ -64,7 +64,7 @@ void CompanionJobs::read_reference(std::string file, const std::function<void()>
     reference_.start(
         reading,
         [reading, wake](std::stop_token stop) {
-            work_in_background();
+            lower_priority();
             return load_reference(reading.file, [&, last_wake = Clock::now()](float fraction) mutable {
                 *reading.fraction = fraction;
                 if (wake && Clock::now() - last_wake > wake_interval) {
@@ -115,7 +115,7 @@ void CompanionJobs::check_reference(ViewerState& state, const std::function<void
     check_.ask(
         now,
         [reference, scene = state.scene, camera = state.camera.camera()](std::stop_token) {
-            work_in_background();
+            lower_priority();
             return difference(*reference->scene, checksums_of(scene->description(), camera));
         },
         wake);
@@ -166,7 +166,7 @@ void CompanionJobs::update_first_hits(ViewerState& state, const std::function<vo
     first_hits_.ask(
         view,
         [scene = state.scene, view](std::stop_token stop) {
-            work_in_background();
+            lower_priority();
             const glm::ivec2 size = (view.size + view.divisor - 1) / view.divisor;
             return std::make_shared<const FirstHits>(
                 trace_first_hits(*scene, view.camera, size, view.with_footprints, stop));

@@ -128,7 +128,7 @@ void InspectionJob::ask(const std::shared_ptr<const PassOrigin>& origin, const R
     job_.ask(
         request,
         [origin, pixel, pass = request.pass](std::stop_token stop) {
-            work_in_background();
+            lower_priority();
             const PassOrigin& o = *origin;
             const LearnedReuse learned = learned_reuse_of(o, pass, pixel, stop);
             if (stop.stop_requested())
@@ -230,7 +230,7 @@ std::vector<glm::vec3> light_positions(const SceneDescription& scene) {
 
 std::shared_ptr<const Surroundings> SurroundingsJob::find(const Scene& scene, const View& view,
                                                           std::stop_token stop) {
-    work_in_background();
+    lower_priority();
     auto around = std::make_shared<Surroundings>();
     around->camera = view.camera;
     around->size = view.size;

@@ -114,7 +114,7 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
         request,
         [=, watch = request.watch,
          anew = std::exchange(making.anew, false)](std::stop_token stop) -> MakingResult {
-            work_behind_others(); // the pool's threads inherit this priority
+            lower_priority_further(); // the pool's threads inherit this priority
             check_writable(file);
             if (anew)
                 std::filesystem::remove(reference_checkpoint(file));
@@ -140,7 +140,7 @@ void ReferenceJob::take(ViewerState& state, const Job::Outcome& outcome) {
                                  "Rendering the reference " + file + " has failed: " + outcome.error);
     const MakingResult& result = *outcome.result;
     for (const HalfCounters& half : result.halves)
-        state.add_refused("The reference", half.counters, state.active().slot,
+        state.add_invalid("The reference", half.counters, state.active().slot,
                           {request.scene, request.camera, request.size, half.settings});
     if (!result.error)
         return state.add_message(

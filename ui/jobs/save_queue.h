@@ -73,7 +73,7 @@ inline void SaveQueue::start_next() {
     job_.start(
         {},
         [work = std::move(next.work)](std::stop_token) {
-            work_in_background();
+            lower_priority();
             return work();
         },
         std::move(next.on_done));

@@ -56,7 +56,7 @@ void FileDialog::begin_saving(const ViewerState& state) {
         state.layout.save_folder.empty() ? fs::current_path(ignored) : fs::path(state.layout.save_folder);
     folder_.clear(); // lists the files with another extension
     const auto is_taken = [this](const fs::path& file) { return replaces(file); };
-    set_text(free_name(folder / stem_of(state, kind_), extension(), is_taken).string());
+    set_text(unused_name(folder / stem_of(state, kind_), extension(), is_taken).string());
 }
 
 /// Whether saving to this path replaces a file: the path itself, or one with another ending of the same kind.

@@ -59,8 +59,8 @@ StatisticGroup rays(const Counters& c) {
     for (std::size_t i = 0; i < c.rays.size(); ++i) {
         const std::string_view kind = to_string(static_cast<RayKind>(i));
         if (c.rays[i] > 0)
-            group.statistics.push_back({"rays." + std::string(kind), in_words(kind), count_text(c.rays[i]),
-                                        ratio(c.rays[i], c.all_rays()), ray_help[i]});
+            group.statistics.push_back({"rays." + std::string(kind), label_of_identifier(kind),
+                                        count_text(c.rays[i]), ratio(c.rays[i], c.all_rays()), ray_help[i]});
     }
     return group;
 }
@@ -93,8 +93,8 @@ StatisticGroup shifts(const Counters& c) {
     for (std::size_t i = 0; i < c.shifts.size(); ++i) {
         const auto outcome = static_cast<ShiftOutcome>(i);
         const std::string_view name = to_string(outcome);
-        group.statistics.push_back({"shifts." + std::string(name), in_words(name), count_text(c.shifts[i]),
-                                    ratio(c.shifts[i], all), outcome_help(outcome)});
+        group.statistics.push_back({"shifts." + std::string(name), label_of_identifier(name),
+                                    count_text(c.shifts[i]), ratio(c.shifts[i], all), outcome_help(outcome)});
     }
     return group;
 }
@@ -170,7 +170,7 @@ void draw_statistic(Controls& controls, const Statistic& figure, ImU32 bar_colou
 }
 
 void draw_refused(Controls& controls, const Snapshot& snapshot) {
-    const std::string text = refused_text(snapshot.counters, snapshot.settings.seed);
+    const std::string text = invalid_text(snapshot.counters, snapshot.settings.seed);
     if (text.empty())
         return;
     ImGui::Spacing();

@@ -100,7 +100,7 @@ Legend outcome_legend() {
     legend.help += '\n';
     for (int i = 0; i < shift_outcome_count; ++i) {
         const auto outcome = static_cast<ShiftOutcome>(i);
-        legend.entries.push_back({in_words(to_string(outcome)), outcome_colour(outcome)});
+        legend.entries.push_back({label_of_identifier(to_string(outcome)), outcome_colour(outcome)});
         legend.help += "\n" + legend.entries.back().name + ": " + outcome_help(outcome);
     }
     return legend;
@@ -111,7 +111,7 @@ LegendPlace draw_legend(const ScreenRect& picture, const std::string& id, const 
     const float font = ImGui::GetFontSize(), pad = std::floor(font * 0.5f), bar = std::floor(font * 0.5f);
     const ImVec2 text_size = ImGui::CalcTextSize(legend.text.c_str());
     const EntryPlaces entries =
-        places_of(legend.entries, std::min(picture.size().x - 4 * pad, font * widest_legend));
+        places_of(legend.entries, std::min(picture.size().x - 4 * pad, font * max_legend_ems));
     const bool has_bar = !legend.colours.empty();
     const glm::vec2 size(std::max({text_size.x, has_bar ? font * 10 : 0, entries.size.x}) + 2 * pad,
                          text_size.y + 2 * pad + (has_bar ? bar + 0.5f * pad : 0) + entries.size.y);
@@ -201,7 +201,7 @@ void PaneLegends::draw(const PictureFrame& frame, const std::string& id, int pan
     if (left_is_seen)
         drawn_[0] = draw_one(room, id + ".legend", sides.left, false, tools);
     const ScreenRect& left = drawn_[0].place.whole;
-    if (left.size().y > 0 && room.size().x < 2 * widest_legend * ImGui::GetFontSize())
+    if (left.size().y > 0 && room.size().x < 2 * max_legend_ems * ImGui::GetFontSize())
         room.max.y = left.min.y; // above the left legend
     if (right_is_seen && !(same_colours && left_is_seen))
         drawn_[1] = draw_one(room, id + ".right_legend", sides.right, true, tools);

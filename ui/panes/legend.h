@@ -28,7 +28,7 @@ struct Legend {
     std::vector<glm::vec3> colours; ///< of the bar, evenly spaced; empty: no bar
     std::vector<LegendEntry> entries;
 };
-inline constexpr float widest_legend = 24; ///< maximum width of the entries, in font sizes
+inline constexpr float max_legend_ems = 24; ///< maximum width of the entries, in font sizes
 
 /// Returns the legend of a buffer's false colours, whose bar can be dragged.
 Legend false_colour_legend(Buffer buffer, const ValueRange& range);

@@ -62,7 +62,7 @@ std::string error_text(const ViewerState& state, const PaneState& pane) {
 }
 
 /// Returns "reconstructing pass 12, 40 %, 1.3 s (Esc ends it)"; without a percentage before the first step.
-std::string under_way_text(const ReconstructionUnderWay& now) {
+std::string under_way_text(const RunningReconstruction& now) {
     char share[16] = "", text[96];
     if (now.share > 0)
         std::snprintf(share, sizeof share, " %.0f %%,", 100.0 * static_cast<double>(now.share));
@@ -86,7 +86,7 @@ std::string activity_text(const ViewerState& state, int index, bool is_answered)
         return "paused";
     if (is_in_long_first_pass(pane))
         return fmt::format("{} {} %", is_answered ? "first pass" : "preview",
-                           static_cast<int>(100 * pane.pass_share));
+                           static_cast<int>(100 * pane.pass_progress));
     if (!is_answered)
         return "starting";
     if (is_done(*pane.snapshot, state.rendering.pace))

@@ -188,9 +188,9 @@ std::string label_of(const Showing& showing, const ViewerState& state) {
     if (showing.pane == the_reference)
         return name(state, showing.pane);
     const Buffer buffer = settings(state, showing.pane).buffer;
-    const std::shared_ptr<const int>& part = state.companions.part;
+    const std::shared_ptr<const int>& component = state.companions.component;
     return name(state, showing.pane) + "  " + std::string(long_name(buffer)) +
-           (is_of_parts(buffer) && part ? fmt::format(", component {}", *part) : "");
+           (has_components(buffer) && component ? fmt::format(", component {}", *component) : "");
 }
 
 ScreenPixels view_picture(int pane, const CanvasShader& shader, const PaneImages& images,

@@ -99,8 +99,8 @@ private:
     }
 
     void draw_cuts(PixelRect tile) const {
-        grid_.for_each_split(tile, [&](PixelRect split, int paths_alone) {
-            if (paths_alone > 0)
+        grid_.for_each_split(tile, [&](PixelRect split, int paths_without_reuse) {
+            if (paths_without_reuse > 0)
                 drawing_.fill(split, alone_colour);
             if (static_cast<float>(split.width()) * unit_ < least_edge)
                 return;
@@ -149,8 +149,8 @@ private:
                 const PixelRect all = split.with_halo(size_);
                 drawing_.fill(PixelRect{split.x1, all.y0, all.x1, all.y1}, halo_colour);
                 drawing_.fill(PixelRect{all.x0, split.y1, split.x1, all.y1}, halo_colour);
-                grid_.for_each_split(grid_.block_at(p), [&](PixelRect other, int paths_alone) {
-                    if (paths_alone == 0 && !other.contains(p) && other.with_halo(size_).contains(p))
+                grid_.for_each_split(grid_.block_at(p), [&](PixelRect other, int paths_without_reuse) {
+                    if (paths_without_reuse == 0 && !other.contains(p) && other.with_halo(size_).contains(p))
                         outline(other.with_halo(size_), halo_edge_colour);
                 });
             }

@@ -74,7 +74,7 @@ Values describe(const ViewerState& state) {
     if (const auto& found = state.inspector.inspection)
         values["inspection"] = std::string(short_name(found->method)) + " pixel " +
                                std::to_string(found->pixel.x) + " " + std::to_string(found->pixel.y) + " pass " +
-                               std::to_string(found->pass) + (found->is_refused ? " refused" : "");
+                               std::to_string(found->pass) + (found->is_invalid ? " refused" : "");
     const auto& reference = state.companions.reference;
     values["reference"] = reference ? std::filesystem::path(reference->name).filename().string() : "none";
     values["slow motion"] = text(state.slow_motion.active);

@@ -117,15 +117,15 @@ void write_preferences(const fs::path& file, const Preferences& p) {
     write_text(fs::weakly_canonical(file), to_text(json, 2) + "\n"); // writes to a link's target
 }
 
-KeptPreferences claim_preferences(const fs::path& file) {
-    KeptPreferences kept;
+LoadedPreferences claim_preferences(const fs::path& file) {
+    LoadedPreferences kept;
     Condition condition;
     kept.preferences = read(file, kept.note, condition);
     if (condition == Condition::fine)
         return kept;
     std::error_code failed;
     const fs::path target = fs::canonical(file, failed); // renames a link's target
-    const fs::path renamed = free_name(target.string() + ".broken");
+    const fs::path renamed = unused_name(target.string() + ".broken");
     if (condition == Condition::broken && !failed)
         fs::rename(target, renamed, failed);
     kept.can_be_replaced = condition == Condition::broken && !failed;
@@ -134,9 +134,9 @@ KeptPreferences claim_preferences(const fs::path& file) {
     return kept;
 }
 
-KeptPreferences store_preferences(const fs::path& file, Preferences preferences,
-                                  const std::vector<std::string>& opened) {
-    KeptPreferences kept = claim_preferences(file);
+LoadedPreferences store_preferences(const fs::path& file, Preferences preferences,
+                                    const std::vector<std::string>& opened) {
+    LoadedPreferences kept = claim_preferences(file);
     if (kept.note.empty()) // keeps scenes that other viewers have added
         preferences.recent_scenes = std::move(kept.preferences.recent_scenes);
     for (const std::string& scene : opened)

@@ -9,7 +9,7 @@
 namespace tessera {
 
 /// Settings that the viewer stores for the next run.
-struct Preferences : LastingLayout {
+struct Preferences : StoredLayout {
     int panes = 0;                          ///< number of panes; 0: unknown
     std::vector<std::string> recent_scenes; ///< absolute file names, the newest first
 
@@ -31,7 +31,7 @@ Preferences read_preferences(const std::filesystem::path& file, std::string& not
 void write_preferences(const std::filesystem::path& file, const Preferences& preferences);
 
 /// Preferences and the state of their file, which other viewers and users also write.
-struct KeptPreferences {
+struct LoadedPreferences {
     Preferences preferences;
     std::string note;            ///< message to the user about the file; empty: none
     bool can_be_replaced = true; ///< whether the file can be overwritten without loss
@@ -40,12 +40,12 @@ struct KeptPreferences {
 /// Reads the preferences as read_preferences does, and renames a broken file to the first free name of
 /// "viewer.json.broken", "viewer.json.broken-2", ..., so that it can be replaced. An unreadable file cannot be
 /// replaced.
-KeptPreferences claim_preferences(const std::filesystem::path& file);
+LoadedPreferences claim_preferences(const std::filesystem::path& file);
 
 /// Claims the file, and replaces it if possible. A failure to write is ignored.
 /// @param opened  scenes of this run, the newest last; they are added to the recent scenes in the file
 /// @return        the preferences with these scenes
-KeptPreferences store_preferences(const std::filesystem::path& file, Preferences preferences,
-                                  const std::vector<std::string>& opened);
+LoadedPreferences store_preferences(const std::filesystem::path& file, Preferences preferences,
+                                    const std::vector<std::string>& opened);
 
 } // namespace tessera

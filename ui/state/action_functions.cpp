@@ -27,14 +27,14 @@ void step_tile(ViewerState& state, int step) {
     state.share_settings();
 }
 
-void next_part(ViewerState& state) {
-    int parts = 0;
+void next_component(ViewerState& state) {
+    int components = 0;
     for (const PaneState& pane : state.panes)
         if (pane.snapshot && pane.snapshot->images)
-            parts = std::max(parts, static_cast<int>(pane.snapshot->images->parts.size()));
-    const std::shared_ptr<const int>& shown = state.companions.part;
+            components = std::max(components, static_cast<int>(pane.snapshot->images->components.size()));
+    const std::shared_ptr<const int>& shown = state.companions.component;
     const int next = shown ? *shown + 1 : 0;
-    state.companions.part = next < parts ? std::make_shared<const int>(next) : nullptr;
+    state.companions.component = next < components ? std::make_shared<const int>(next) : nullptr;
 }
 
 void toggle_denoiser(ViewerState& state, int pane) {

@@ -167,7 +167,7 @@ constexpr Action table[] = {
      no_shortcut, show_buffer<Buffer::samples>, shows_buffer<Buffer::samples>},
     {"More buffers", "Next component",
      "Shows the next basis component of coefficients and gradients, or the whole after the last.", no_shortcut,
-     no_shortcut, next_part, nullptr},
+     no_shortcut, next_component, nullptr},
 
     {"View", "Brighter", "Increases the exposure by half a stop.", character('+'), character('='),
      [](State& s) { step_exposure(s, 0.5f); }, nullptr},

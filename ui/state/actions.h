@@ -113,7 +113,7 @@ void set_buffer(ViewerState& state, Buffer buffer); ///< in all panes
 void step_method(ViewerState& state, int step);     ///< of the active pane
 void step_tile(ViewerState& state, int step);
 /// Shows the next basis component that some pane has, or the whole after the last one.
-void next_part(ViewerState& state);
+void next_component(ViewerState& state);
 /// Switches a pane between raw samples and the denoiser of its method: `guided` with gradients, `smoothed`
 /// without. Unlinks the panes if there are several, because the reconstruction then differs between them.
 void toggle_denoiser(ViewerState& state, int pane);

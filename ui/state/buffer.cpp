@@ -71,7 +71,7 @@ std::shared_ptr<const void> picture_source(const Snapshot& snapshot, Buffer buff
     return snapshot.images;
 }
 
-bool is_of_parts(Buffer buffer) {
+bool has_components(Buffer buffer) {
     return family(buffer) == BufferFamily::gradient || buffer == Buffer::coefficient ||
            buffer == Buffer::projection || buffer == Buffer::dx_variance || buffer == Buffer::dy_variance;
 }
@@ -81,8 +81,8 @@ bool is_footprint(Buffer buffer) {
 }
 
 std::shared_ptr<const void> companion_source(const Companions& companions, Buffer buffer) {
-    if (is_of_parts(buffer))
-        return companions.part;
+    if (has_components(buffer))
+        return companions.component;
     if (family(buffer) == BufferFamily::error || family(buffer) == BufferFamily::reference)
         return companions.reference;
     if (family(buffer) == BufferFamily::first_hit)
@@ -101,10 +101,10 @@ const RgbImage& final_picture(const Snapshot& snapshot, RgbImage& scratch) {
 }
 
 /// Returns the selected basis component; null: none is selected, or the snapshot does not have it.
-const BasisComponent* part_of(const Snapshot& snapshot, const Companions& companions) {
-    const std::vector<BasisComponent>& parts = snapshot.images->parts;
-    const int l = companions.part ? *companions.part : -1;
-    return l >= 0 && l < static_cast<int>(parts.size()) ? &parts[l] : nullptr;
+const BasisComponent* component_of(const Snapshot& snapshot, const Companions& companions) {
+    const std::vector<BasisComponent>& components = snapshot.images->components;
+    const int l = companions.component ? *companions.component : -1;
+    return l >= 0 && l < static_cast<int>(components.size()) ? &components[l] : nullptr;
 }
 
 /// Returns coefficients, gradients or their variances.
@@ -126,10 +126,10 @@ const RgbImage& measured_picture(const Measured& measured, Buffer buffer, RgbIma
 }
 
 const RgbImage& projection_picture(const Snapshot& snapshot, RgbImage& scratch, const Companions& companions) {
-    if (snapshot.images->parts.empty())
+    if (snapshot.images->components.empty())
         return no_picture;
-    const BasisComponent* part = part_of(snapshot, companions);
-    return scratch = grey((part ? *part : snapshot.images->parts.front()).projection);
+    const BasisComponent* component = component_of(snapshot, companions);
+    return scratch = grey((component ? *component : snapshot.images->components.front()).projection);
 }
 
 const RgbImage& error_picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scratch,
@@ -180,8 +180,8 @@ const RgbImage& picture(const Snapshot& snapshot, Buffer buffer, RgbImage& scrat
     case Buffer::dx_variance:
     case Buffer::dy_variance:
     case Buffer::coefficient:
-        if (const BasisComponent* part = part_of(snapshot, companions))
-            return measured_picture(*part, buffer, scratch);
+        if (const BasisComponent* component = component_of(snapshot, companions))
+            return measured_picture(*component, buffer, scratch);
         return measured_picture(*snapshot.images, buffer, scratch);
     case Buffer::projection:
         return projection_picture(snapshot, scratch, companions);
@@ -218,13 +218,13 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
         return name + " measures no gradients";
     if (family(buffer) == BufferFamily::variance && snapshot && snapshot->spp < 2)
         return "Variances need two passes";
-    if (buffer == Buffer::samples && snapshot && !finds_gain_of_sharing(snapshot->settings))
+    if (buffer == Buffer::samples && snapshot && !measures_reuse_gain(snapshot->settings))
         return "All pixels have one sample per pass";
     if (family(buffer) == BufferFamily::reuse && method == Method::pt && buffer != Buffer::samples)
         return name + " reuses no paths";
     if (buffer == Buffer::reuse_set_size && !reuses_paths(method))
         return name + " has no tiles";
-    if (buffer == Buffer::gain && snapshot && !finds_gain_of_sharing(snapshot->settings))
+    if (buffer == Buffer::gain && snapshot && !measures_reuse_gain(snapshot->settings))
         return "The gain is measured only for G-PR with adaptive tiles";
     if (family(buffer) == BufferFamily::basis && method == Method::pt)
         return name + " does not demodulate the albedo";

@@ -102,7 +102,7 @@ std::string_view paper_name(Method method);
 bool is_footprint(Buffer buffer);
 
 /// Whether the buffer can show a single basis component (Companions::part).
-bool is_of_parts(Buffer buffer);
+bool has_components(Buffer buffer);
 
 /// Returns the part of the snapshot from which picture() makes the buffer's image. The pointer changes exactly
 /// when the image does. Null: there is no image, or it does not depend on the snapshot.

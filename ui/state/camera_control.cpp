@@ -202,7 +202,8 @@ std::filesystem::path store_camera(const std::filesystem::path& scene_file, cons
                                    const std::filesystem::path& folder) {
     namespace fs = std::filesystem;
     const std::string stem = scene_file.empty() ? "tessera" : scene_file.stem().string();
-    const fs::path file = free_name((folder.empty() ? fs::current_path() : folder) / (stem + "-camera"), ".json");
+    const fs::path file =
+        unused_name((folder.empty() ? fs::current_path() : folder) / (stem + "-camera"), ".json");
     write_camera(file, camera);
     return file;
 }

@@ -107,7 +107,7 @@ std::optional<PictureError> error_to(const Reference& reference, const RgbImage&
     return PictureError{error.relative_mse / share, error.standard_error / share, excluded.size()};
 }
 
-std::string caveat_of(const Reference& reference) {
+std::string reference_caveat(const Reference& reference) {
     std::string text;
     if (!has_halves(reference))
         text = "The reference has no halves: these errors include its own, unknown error.";

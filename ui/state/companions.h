@@ -38,7 +38,7 @@ struct Companions {
         false; ///< first_hits are of a previous camera or size, until new ones are traced
     /// Index of the basis component that is shown of coefficients and gradients (GradientImages::parts); null:
     /// the whole.
-    std::shared_ptr<const int> part{};
+    std::shared_ptr<const int> component{};
 };
 
 /// Error of a pixel of image I relative to reference r; mean of the three channels.
@@ -85,7 +85,7 @@ struct PictureError {
 std::optional<PictureError> error_to(const Reference& reference, const RgbImage& picture);
 
 /// Returns the caveat that a chart of errors against this reference must show; empty: none.
-std::string caveat_of(const Reference& reference);
+std::string reference_caveat(const Reference& reference);
 
 /// Makes a reference from the layers of a file. Drops `halves` unless both have the image's size.
 std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image, std::array<RgbImage, 2> halves,

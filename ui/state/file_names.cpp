@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-std::filesystem::path free_name(const std::filesystem::path& stem, const std::string& ending,
-                                const std::function<bool(const std::filesystem::path&)>& is_taken) {
+std::filesystem::path unused_name(const std::filesystem::path& stem, const std::string& ending,
+                                  const std::function<bool(const std::filesystem::path&)>& is_taken) {
     std::error_code ignored; // an unreadable folder causes an error when the file is written
     const auto exists = [&](const std::filesystem::path& file) { // includes dangling links
         return std::filesystem::exists(std::filesystem::symlink_status(file, ignored));
@@ -31,7 +31,7 @@ std::filesystem::path dated_file(const std::string& ending, const std::filesyste
     std::error_code ignored; // a deleted current folder causes an error when the file is written
     const std::filesystem::path folder = wanted.empty() ? std::filesystem::current_path(ignored) : wanted;
     const auto is_returned = [](const std::filesystem::path& file) { return returned.contains(file); };
-    return *returned.insert(free_name(folder / stem, ending, is_returned)).first;
+    return *returned.insert(unused_name(folder / stem, ending, is_returned)).first;
 }
 
 namespace {

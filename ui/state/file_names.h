@@ -10,8 +10,8 @@ namespace tessera {
 
 /// Returns the first of "STEM" + ending, "STEM-2" + ending, ... that neither exists nor is taken.
 /// @param is_taken  excludes more names; may be empty
-std::filesystem::path free_name(const std::filesystem::path& stem, const std::string& ending = "",
-                                const std::function<bool(const std::filesystem::path&)>& is_taken = {});
+std::filesystem::path unused_name(const std::filesystem::path& stem, const std::string& ending = "",
+                                  const std::function<bool(const std::filesystem::path&)>& is_taken = {});
 
 /// Returns a new file name with the current time in the folder (empty: the current one):
 /// "tessera-20260131-120000.png", or "tessera-20260131-120000-2.png" if that exists or this function has returned

@@ -159,7 +159,8 @@ std::string outcome_shares(const ReuseCounts& counts) {
             break;
         const double percent = 100.0 * counts.shifts[i] / counts.tried();
         text += fmt::format("{}{} {:.{}f} %", text.empty() ? "" : ", ",
-                            in_words(to_string(static_cast<ShiftOutcome>(i))), percent, percent < 9.95 ? 1 : 0);
+                            label_of_identifier(to_string(static_cast<ShiftOutcome>(i))), percent,
+                            percent < 9.95 ? 1 : 0);
     }
     return text.empty() ? "no shifts" : text;
 }

@@ -25,7 +25,7 @@ struct WindowPlace {
 enum class PanelSection { method, display, compare, reference, size, limits, expert };
 
 /// The part of the layout that the viewer stores between runs.
-struct LastingLayout {
+struct StoredLayout {
     WindowPlace window;
     Theme theme = Theme::dark;
     float text_factor = 1;  ///< scale of text and controls relative to the display's scale
@@ -38,7 +38,7 @@ struct LastingLayout {
     bool is_open(PanelSection section) const { return open_sections >> static_cast<int>(section) & 1; }
     void fold(PanelSection section) { open_sections ^= 1u << static_cast<int>(section); }
 
-    bool operator==(const LastingLayout&) const = default;
+    bool operator==(const StoredLayout&) const = default;
 };
 
 /// Quantity of a chart, against time or samples.
@@ -77,7 +77,7 @@ struct Cursor {
 };
 
 /// Layout of the window, and which parts are visible.
-struct Layout : LastingLayout {
+struct Layout : StoredLayout {
     static constexpr float least_ui_scale = 1, most_ui_scale = 3;
     static constexpr float least_panel_width = 14, most_panel_width = 48;
 
@@ -116,7 +116,7 @@ struct Layout : LastingLayout {
     }
 
     /// Restores the stored part; the rest stays.
-    void restore(const LastingLayout& remembered) { static_cast<LastingLayout&>(*this) = remembered; }
+    void restore(const StoredLayout& remembered) { static_cast<StoredLayout&>(*this) = remembered; }
 };
 
 } // namespace tessera

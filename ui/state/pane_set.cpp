@@ -47,7 +47,7 @@ int free_slot(const std::vector<PaneState>& panes) {
 bool is_in_long_first_pass(const PaneState& pane) {
     const Snapshot* s = pane.snapshot.get();
     const bool has_pass = s && s->generation == pane.generation && !s->coarse();
-    return pane.generation > 0 && !has_pass && !pane.failed && pane.pass_share > 0;
+    return pane.generation > 0 && !has_pass && !pane.failed && pane.pass_progress > 0;
 }
 
 Norm applied_norm(const PaneSettings& pane) {

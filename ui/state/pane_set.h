@@ -51,11 +51,11 @@ struct PaneState {
     std::shared_ptr<const Snapshot> snapshot; ///< the newest; null before the first
     std::uint64_t generation = 0;             ///< of the present request
     glm::ivec2 canvas_size{0};                ///< of its picture area, framebuffer pixels, as last drawn
-    std::optional<ReconstructionUnderWay> reconstructing{}; ///< the one under way; empty: none is
-    bool failed = false;   ///< its render failed; the request gets no more snapshots
-    std::string failure{}; ///< reason of the failure
-    float pass_share = 0;  ///< fraction of the pass under way that is done, [0, 1]
-    int slot = 0;          ///< the session's pane for it: unique, and constant when the layout changes
+    std::optional<RunningReconstruction> reconstructing{}; ///< the one under way; empty: none is
+    bool failed = false;     ///< its render failed; the request gets no more snapshots
+    std::string failure{};   ///< reason of the failure
+    float pass_progress = 0; ///< fraction of the pass under way that is done, [0, 1]
+    int slot = 0;            ///< the session's pane for it: unique, and constant when the layout changes
 };
 
 /// Whether the pane's first pass takes so long that its progress is shown.

@@ -69,16 +69,16 @@ void ViewerState::tell(std::string text) {
     add_message(Message::Kind::note, std::move(text));
 }
 
-void ViewerState::add_refused(const std::string& whose, const Counters& counters, int slot,
+void ViewerState::add_invalid(const std::string& whose, const Counters& counters, int slot,
                               const PassOrigin& origin) {
-    if (counters.first_refused.list().empty())
+    if (counters.first_invalid.list().empty())
         return;
-    add_message(Message::Kind::note, whose + ": " + refused_text(counters, origin.settings.seed),
+    add_message(Message::Kind::note, whose + ": " + invalid_text(counters, origin.settings.seed),
                 Message::Origin::scene);
     if (origin.scene != scene) // another scene is loaded: the samples would keep the old one in memory
         return;
     const auto kept = std::make_shared<const PassOrigin>(origin);
-    for (const RefusedSample& refused : counters.first_refused.list())
+    for (const InvalidSample& refused : counters.first_invalid.list())
         messages.back().samples.push_back({slot, {refused.x, refused.y}, refused.pass, kept});
 }
 

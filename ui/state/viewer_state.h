@@ -91,7 +91,7 @@ struct ViewerState : Document {
     /// scene is loaded.
     /// @param whose  begins the message
     /// @param slot   pane of the render, or in which the samples are shown
-    void add_refused(const std::string& whose, const Counters& counters, int slot, const PassOrigin& origin);
+    void add_invalid(const std::string& whose, const Counters& counters, int slot, const PassOrigin& origin);
 
     /// Removes the messages of this origin. Closes the list if that removes the last error.
     void drop_messages(Message::Origin origin);

@@ -75,7 +75,7 @@ std::string_view word(const SettingChoice (&words)[count], Enum value) {
 
 /// Returns the label of an identifier: "no light" for "no_light". The shift outcome "kind_mismatch" is shown as
 /// "not connectable"; files keep its identifier.
-inline std::string in_words(std::string_view name) {
+inline std::string label_of_identifier(std::string_view name) {
     if (name == "kind_mismatch")
         return "not connectable";
     std::string text(name);

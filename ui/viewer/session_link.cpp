@@ -18,7 +18,7 @@ void SessionLink::take(ViewerState& state) {
             pane.snapshot = std::move(snapshot);
         pane.failed = session_.has_failed(pane.slot);
         pane.failure = session_.failure(pane.slot);
-        pane.pass_share = session_.pass_share(pane.slot);
+        pane.pass_progress = session_.pass_progress(pane.slot);
         pane.reconstructing = session_.reconstructing(pane.slot);
         report_invalid_samples(state, i);
     }
@@ -35,10 +35,10 @@ void SessionLink::report_invalid_samples(ViewerState& state, std::size_t pane) {
     if (snapshot == nullptr || snapshot->coarse() || snapshot->generation == reported ||
         snapshot->generation != sent.generation)
         return;
-    if (snapshot->counters.first_refused.list().empty())
+    if (snapshot->counters.first_invalid.list().empty())
         return;
     reported = snapshot->generation;
-    state.add_refused(std::string(paper_name(snapshot->settings.method)), snapshot->counters,
+    state.add_invalid(std::string(paper_name(snapshot->settings.method)), snapshot->counters,
                       state.panes[pane].slot,
                       {sent.scene, snapshot->camera, sent.size, snapshot->settings, {}, snapshot->generation});
 }
@@ -67,7 +67,7 @@ void SessionLink::give_up_reconstructions(ViewerState& state) {
     for (const PaneState& pane : state.panes) {
         if (!state.reconstructs_long(pane))
             continue;
-        session_.give_up_reconstruction(pane.slot);
+        session_.stop_reconstruction(pane.slot);
         state.add_message(Message::Kind::note, std::string(paper_name(pane.settings.render.method)) +
                                                    ": the reconstruction of pass " +
                                                    std::to_string(pane.reconstructing->spp) + " was cancelled.");

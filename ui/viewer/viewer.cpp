@@ -38,7 +38,7 @@ Viewer::Viewer(Session& session, ViewerOptions options)
     state_.wishes.open_reference = options_.reference.string();
     state_.wishes.follow_jobs = options_.jobs.string();
     state_.layout.show_gallery = options_.begins_with_gallery;
-    memory_.restore(state_, options_.panes_as_remembered ? 0 : static_cast<int>(state_.panes.size()));
+    memory_.restore(state_, options_.uses_stored_pane_count ? 0 : static_cast<int>(state_.panes.size()));
     if (options_.sample) {
         options_.sample->slot = state_.active().slot;
         state_.inspect(*options_.sample);

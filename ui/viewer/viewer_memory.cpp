@@ -16,7 +16,7 @@ void ViewerMemory::restore(ViewerState& state, int asked_panes) {
     asked_panes_ = asked_panes;
     if (file_.empty())
         return;
-    const KeptPreferences kept = claim_preferences(file_);
+    const LoadedPreferences kept = claim_preferences(file_);
     stored_ = kept.preferences;
     take(kept, state);
     state.layout.restore(stored_);
@@ -25,7 +25,7 @@ void ViewerMemory::restore(ViewerState& state, int asked_panes) {
 }
 
 /// Reports the note on the file, and takes over the scenes that other viewers have opened.
-void ViewerMemory::take(const KeptPreferences& kept, ViewerState& state) {
+void ViewerMemory::take(const LoadedPreferences& kept, ViewerState& state) {
     if (!kept.note.empty() && kept.note != reported_note_)
         state.add_message(Message::Kind::note, kept.note);
     reported_note_ = kept.note;
@@ -63,7 +63,7 @@ void ViewerMemory::add_scene(const std::filesystem::path& scene, ViewerState& st
 void ViewerMemory::store(const ViewerState& state) const {
     if (file_.empty())
         return;
-    const KeptPreferences kept = store_preferences(file_, current(state), opened_);
+    const LoadedPreferences kept = store_preferences(file_, current(state), opened_);
     if (!kept.note.empty() && kept.note != reported_note_) // messages are not shown at exit
         std::fprintf(stderr, "%s\n", kept.note.c_str());
 }

@@ -35,7 +35,7 @@ public:
 
 private:
     Preferences current(const ViewerState& state) const;
-    void take(const KeptPreferences& kept, ViewerState& state);
+    void take(const LoadedPreferences& kept, ViewerState& state);
 
     std::filesystem::path file_;
     Preferences stored_;              // last read from the file

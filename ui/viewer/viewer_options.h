@@ -34,10 +34,10 @@ struct ViewerOptions {
     std::vector<PaneSettings> panes; ///< initial settings of each pane; 1 to most_panes
     std::optional<int> max_depth;    ///< for all scenes; empty: each scene's own
     SizeChoice size;
-    int spp_limit = 0;                  ///< samples per pixel at which panes stop; 0: no limit
-    int threads = 0;                    ///< threads of reference renders; as in ThreadPool
-    std::optional<SampleChoice> sample; ///< sample of the active pane that the path inspector shows first
-    bool panes_as_remembered = false;   ///< whether the last run's number of panes is used, if it is known
+    int spp_limit = 0;                   ///< samples per pixel at which panes stop; 0: no limit
+    int threads = 0;                     ///< threads of reference renders; as in ThreadPool
+    std::optional<SampleChoice> sample;  ///< sample of the active pane that the path inspector shows first
+    bool uses_stored_pane_count = false; ///< whether the last run's number of panes is used, if it is known
     std::function<void(const std::string&)> log; ///< receives a line for each change of state; may be empty
     bool log_controls = false;                   ///< whether the log contains the rectangles of controls
     std::filesystem::path reference;             ///< EXR file to measure errors against; empty: none

@@ -51,11 +51,11 @@ void watch_display() {
         reinterpret_cast<Handler (*)(Handler)>(set)(end_process);
 }
 
-LastCall::LastCall(const std::function<void()>& last) {
+DisplayLossHandler::DisplayLossHandler(const std::function<void()>& last) {
     last_call = &last;
 }
 
-LastCall::~LastCall() {
+DisplayLossHandler::~DisplayLossHandler() {
     last_call = nullptr;
 }
 
@@ -94,7 +94,7 @@ Key key_of_glfw(int key) {
     }
 }
 
-const char* printed_on(int key, int scancode) {
+const char* key_label(int key, int scancode) {
     return key > GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 ? glfwGetKeyName(key, scancode) : nullptr;
 }
 

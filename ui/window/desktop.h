@@ -21,12 +21,12 @@ void watch_display();
 /// During its lifetime, a lost display calls `last` before the process ends, if the thread that created this
 /// object notices the loss. Most calls to Xlib come from that drawing thread; another that wakes it may notice the
 /// loss instead.
-class LastCall {
+class DisplayLossHandler {
 public:
-    explicit LastCall(const std::function<void()>& last);
-    ~LastCall();
-    LastCall(const LastCall&) = delete;
-    LastCall& operator=(const LastCall&) = delete;
+    explicit DisplayLossHandler(const std::function<void()>& last);
+    ~DisplayLossHandler();
+    DisplayLossHandler(const DisplayLossHandler&) = delete;
+    DisplayLossHandler& operator=(const DisplayLossHandler&) = delete;
 };
 
 /// Returns the key for a code of GLFW (GLFW_KEY_...); Key::none if the viewer does not use it.
@@ -34,6 +34,6 @@ Key key_of_glfw(int key);
 
 /// Returns the character on a key in the keyboard's own layout; null: none. GLFW's own letters and digits name
 /// positions on an American keyboard.
-const char* printed_on(int key, int scancode);
+const char* key_label(int key, int scancode);
 
 } // namespace tessera

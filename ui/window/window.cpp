@@ -138,7 +138,7 @@ void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int m
     else if (action == GLFW_PRESS) {
         // The right Alt key is no modifier in X layouts where it is AltGr.
         const bool alt = (mods & GLFW_MOD_ALT) != 0 || glfwGetKey(window, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
-        keyboard.press(key_of_glfw(key), key_named(printed_on(key, scancode), key_of_glfw(key), alt),
+        keyboard.press(key_of_glfw(key), key_named(key_label(key, scancode), key_of_glfw(key), alt),
                        (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0);
     }
 }
@@ -222,7 +222,7 @@ void Window::record_place(ViewerState& state) const {
 }
 
 void Window::run(Viewer& viewer, const FrameHooks& hooks) {
-    const LastCall last_call(hooks.lost);
+    const DisplayLossHandler last_call(hooks.lost);
     viewer_ = &viewer;
     last_frame_ = glfwGetTime() - frame_seconds;
     double took = 0;
@@ -251,7 +251,7 @@ void Window::run(Viewer& viewer, const FrameHooks& hooks) {
         if (hooks.before)
             hooks.before(took);
         gui_->begin_window_frame();
-        tell_press_positions(pressed_at_);
+        apply_press_positions(pressed_at_);
         viewer.draw_frame();
         gui_->end_frame();
         if (hooks.after && !hooks.after())

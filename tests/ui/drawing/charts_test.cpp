@@ -189,8 +189,8 @@ TEST_F(Charts, AReferenceWithHalvesAddsNoErrorOfItsOwn) {
     EXPECT_TRUE(std::isnan(with_floor.standard_error));
     EXPECT_LT(std::abs(error.relative_mse), 4 * error.standard_error);
     EXPECT_LT(error.standard_error, 0.001);
-    EXPECT_NE(caveat_of(*plain).find("no halves"), std::string::npos);
-    EXPECT_EQ(caveat_of(*halves), "");
+    EXPECT_NE(reference_caveat(*plain).find("no halves"), std::string::npos);
+    EXPECT_EQ(reference_caveat(*halves), "");
     EXPECT_TRUE(make_reference("other size", mean, {RgbImage(4, 4), RgbImage(4, 4)})->halves[0].empty());
 }
 

@@ -21,7 +21,7 @@ TEST(PaneStatus, ShowsMethodSamplesTimeAndRays) {
     state.scene = test::viewer_scene();
     EXPECT_EQ(status_text(state, 0), "G-PR   starting");
     pane.generation = 3;
-    pane.pass_share = 0.371f;
+    pane.pass_progress = 0.371f;
     EXPECT_EQ(status_text(state, 0), "G-PR   preview 37 %");
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->generation = pane.generation = 4;

@@ -75,7 +75,7 @@ TEST(InvalidSamples, OpenWithTheirRender) {
     ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
     const Inspection& found = *h.state().inspector.inspection;
     EXPECT_EQ(found.method, Method::gpr);
-    EXPECT_TRUE(found.is_refused);
+    EXPECT_TRUE(found.is_invalid);
     EXPECT_EQ(found.pixel, gpr.samples[0].pixel);
     const glm::vec4 seen = Projection(camera, found.size).project(found.path.front().position);
     EXPECT_EQ(glm::ivec2(glm::vec2(seen) / seen.w), found.pixel);
@@ -87,7 +87,7 @@ TEST(InvalidSamples, OpenWithTheirRender) {
     h.viewer.load("a room", [](SceneNotes&, LoadProgress&) { return viewer_scene(); });
     h.wait_until([&] { return h.viewer.settled(2); });
     h.frames(5);
-    EXPECT_TRUE(h.state().inspector.inspection->is_refused);
+    EXPECT_TRUE(h.state().inspector.inspection->is_invalid);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
@@ -98,7 +98,7 @@ TEST(InvalidSamples, OpenInTurn) {
     h.wait_until([&] { return h.viewer.settled(1) && h.state().messages.size() == 2; });
     h.state().messages.pop_back();
     auto& samples = h.state().messages[0].samples;
-    ASSERT_EQ(samples.size(), FirstRefused::most);
+    ASSERT_EQ(samples.size(), FirstInvalid::most);
     samples.resize(3);
     for (const std::size_t i : {0u, 1u, 2u, 0u}) { // and the first again
         h.state().layout.show_messages = true;
@@ -110,7 +110,7 @@ TEST(InvalidSamples, OpenInTurn) {
             const auto& inspection = h.state().inspector.inspection;
             return inspection && inspection->pixel == sample.pixel;
         })) << i;
-        EXPECT_TRUE(h.state().inspector.inspection->is_refused) << i;
+        EXPECT_TRUE(h.state().inspector.inspection->is_invalid) << i;
         EXPECT_EQ(h.state().inspector.inspection->pass, *sample.pass) << i;
     }
 }
@@ -133,7 +133,7 @@ TEST(InvalidSamples, OfAReferenceCanBeOpened) {
     h.frames(2);
     h.click("inspect_message1");
     ASSERT_TRUE(h.wait_until([&] { return h.state().inspector.inspection != nullptr; }));
-    EXPECT_TRUE(h.state().inspector.inspection->is_refused);
+    EXPECT_TRUE(h.state().inspector.inspection->is_invalid);
     EXPECT_EQ(h.state().inspector.sample->origin->settings.seed, 1002u);
 }
 
@@ -143,10 +143,10 @@ TEST(InvalidSamples, OfAReplacedSceneDoNotKeepIt) {
     Counters counters;
     counters.refuse({0, 1, 2});
     const PassOrigin here{state.scene, state.scene->camera(), {48, 36}, {}};
-    state.add_refused("The reference", counters, 0, here);
+    state.add_invalid("The reference", counters, 0, here);
     EXPECT_EQ(state.messages.back().samples.size(), 1u);
     state.scene = viewer_scene();
-    state.add_refused("The reference", counters, 0, here);
+    state.add_invalid("The reference", counters, 0, here);
     ASSERT_EQ(state.messages.size(), 2u);
     EXPECT_TRUE(state.messages.back().samples.empty());
 }

@@ -105,17 +105,17 @@ TEST(Buffer, AComponentReplacesTheSum) {
     const RgbImage grey_part(4, 3, Rgb(0.3f));
     const Image<float> variance(4, 3, 0.1f);
     for (const float projection : {0.25f, -0.75f})
-        images->parts.push_back(
+        images->components.push_back(
             {Image<float>(4, 3, projection), grey_part, grey_part, grey_part, variance, variance, variance});
     images->demodulation.albedo = RgbImage(4, 3, Rgb(1));
     snapshot.images = images;
     snapshot.settings.basis = Basis::sh1;
-    const auto first_of = [&](Buffer buffer, int part) {
+    const auto first_of = [&](Buffer buffer, int component) {
         RgbImage scratch;
         Companions companions;
-        if (part >= 0)
-            companions.part = std::make_shared<const int>(part);
-        EXPECT_EQ(companion_source(companions, buffer) != nullptr, part >= 0);
+        if (component >= 0)
+            companions.component = std::make_shared<const int>(component);
+        EXPECT_EQ(companion_source(companions, buffer) != nullptr, component >= 0);
         return picture(snapshot, buffer, scratch, companions)(0, 0).r;
     };
     EXPECT_FLOAT_EQ(first_of(Buffer::projection, 1), -0.75f);
@@ -126,8 +126,10 @@ TEST(Buffer, AComponentReplacesTheSum) {
     EXPECT_FLOAT_EQ(first_of(Buffer::dx, 0), 0.3f);
     EXPECT_FLOAT_EQ(first_of(Buffer::dy_variance, 0), 0.1f);
     snapshot.settings.basis = Basis::albedo;
-    EXPECT_NE(missing_text(&snapshot, Method::gpr, Buffer::projection, {}).find("one component"), std::string::npos);
-    EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::projection, {}).find("no basis components"), std::string::npos);
+    EXPECT_NE(missing_text(&snapshot, Method::gpr, Buffer::projection, {}).find("one component"),
+              std::string::npos);
+    EXPECT_NE(missing_text(&snapshot, Method::pr, Buffer::projection, {}).find("no basis components"),
+              std::string::npos);
 }
 
 TEST(Buffer, ReuseMapsNeedPathReuse) {

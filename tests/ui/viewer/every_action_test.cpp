@@ -33,8 +33,7 @@ void note_two_exposures(ViewerState& s) {
 
 /// Preparations without which an action would change nothing.
 const std::map<std::string, std::function<void(ViewerState&)>> preparations = {
-    {"Result",
-     [](ViewerState& s) { s.panes[0].settings.buffer = s.panes[1].settings.buffer = Buffer::dx; }},
+    {"Result", [](ViewerState& s) { s.panes[0].settings.buffer = s.panes[1].settings.buffer = Buffer::dx; }},
     {"Reset exposure", [](ViewerState& s) { s.display.tone.exposure = 2; }},
     {"Next component",
      [](ViewerState& s) {
@@ -135,7 +134,7 @@ struct EveryAction : testing::TestWithParam<std::string>, ViewerHarness {
         for (const std::string& kind : files)
             text += " " + kind;
         text += fmt::format("\nclipboard: {}\n", ImGui::GetClipboardText());
-        text += fmt::format("part {}\n", s.companions.part ? *s.companions.part : -1);
+        text += fmt::format("part {}\n", s.companions.component ? *s.companions.component : -1);
         text += fmt::format("pane {}, text {}, {} spp, reloaded {}, anew {}, quit {}\n", s.active_pane,
                             s.layout.text_factor, s.active().snapshot->spp, s.scene_info.shown - scenes,
                             s.active().generation != generation, s.wishes.quit);

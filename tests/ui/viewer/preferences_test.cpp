@@ -124,7 +124,7 @@ TEST(Remembered, LayoutAndRecentScenes) {
         EXPECT_GT(h.state().layout.panel_width, 22);
         width = h.place("panel edge").center().x;
     }
-    options.panes_as_remembered = true;
+    options.uses_stored_pane_count = true;
     ViewerHarness h({900, 480}, 1, options);
     EXPECT_EQ(h.state().panes.size(), 4u);
     h.frames(2);
@@ -294,7 +294,7 @@ TEST(Remembered, PanesOfTheCommandLineAreNotStored) {
     }
     EXPECT_EQ(read_preferences(options.preferences, note).panes, 2);
     options.panes.resize(1); // -m gpr
-    options.panes_as_remembered = false;
+    options.uses_stored_pane_count = false;
     {
         ViewerHarness h({900, 600}, 1, options);
         h.frames(2);

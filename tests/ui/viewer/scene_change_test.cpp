@@ -250,7 +250,7 @@ TEST_F(SceneChange, LoadingShowsProgressAndIsCancelledByAnother) {
         while (!progress.given_up())
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         ended = true;
-        progress.check_wanted();
+        progress.throw_if_cancelled();
         return nullptr;
     });
     wait_until([&] { return state().scene_info.loading == "meshes and textures, 2 of 8"; });
@@ -274,7 +274,7 @@ TEST_F(SceneChange, LoadingIsCancelledByTheButtonAndByEscape) {
             while (!progress.given_up())
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             ended = true;
-            progress.check_wanted();
+            progress.throw_if_cancelled();
             return nullptr;
         });
         wait_until([&] { return !state().scene_info.loading.empty() && has("cancel_load"); });

@@ -19,9 +19,9 @@ struct OffsetStep {
 };
 
 /// Observer of the steps of shifts. Only the path inspector has one.
-class ShiftOnlooker {
+class ShiftObserver {
 public:
-    virtual ~ShiftOnlooker() = default;
+    virtual ~ShiftObserver() = default;
 
     /// A base path with `slots` slots is shifted to `offsets` pixels, m = 0, 1, ...
     virtual void begins(int offsets, int slots) = 0;

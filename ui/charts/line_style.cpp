@@ -1,4 +1,4 @@
-#include "ui/charts/line_look.h"
+#include "ui/charts/line_style.h"
 
 #include "recon/enumeration.h"
 
@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-std::span<const float> dashes_of(const LineLook& look) {
+std::span<const float> dashes_of(const LineStyle& look) {
     static constexpr float dots[] = {1, 2}, dashes[] = {5, 3}, short_dashes[] = {2.5f, 2},
                            dash_dots[] = {6, 2, 1, 2}, long_dashes[] = {9, 2},
                            dash_dot_dots[] = {6, 2, 1, 2, 1, 2}, sparse_dots[] = {1, 4}, sparse_dashes[] = {4, 5};

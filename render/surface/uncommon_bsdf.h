@@ -27,7 +27,7 @@ float relative_index_of(const Kind& kind, glm::vec3 to_previous) {
 /// Expensive or rare kinds of BSDF, grouped into one alternative of Bsdf::kind. libstdc++ visits up to 11
 /// alternatives with a switch and more through a function table, which would slow all kinds down. Kinds too large
 /// for a Bsdf hold a pointer to their material and look up its textures in every call.
-struct FurtherKinds {
+struct UncommonBsdf {
     std::variant<Mixture, Coated, Principled, ThinPrincipled, Ward, DiffuseTransmitter, MediumLayer> kind;
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const;

@@ -1,4 +1,4 @@
-#include "render/inspect/onlooker.h"
+#include "render/inspect/observer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace tessera {
 
 namespace {
 
-SeenVertex seen(const Vertex& v) {
+DisplayVertex seen(const Vertex& v) {
     return {v.position, v.frame.normal, kind_name(v.bsdf), v.bsdf.roughness()};
 }
 
@@ -34,7 +34,7 @@ InspectedVertex inspect_vertex(const BasePath& path, int i, Rgb throughput) {
         v.light = InspectedLight{light.light.position};
     if (v.goes_on) {
         v.to_next = x.vertex.to_world(x.to_next);
-        v.hit = x.hit_brings;
+        v.hit = x.hit_contribution;
     }
     return v;
 }
@@ -78,26 +78,26 @@ void OffsetTrace::arrives(int m, const Vertex& y) {
     at(m).vertices.push_back(seen(y));
 }
 
-Onlooker::Onlooker(Worker& worker, float samples, int pixel, InspectedSet& result)
+Observer::Observer(Worker& worker, float samples, int pixel, InspectedSet& result)
     : worker_(worker), result_(result), samples_(samples), pixel_(pixel) {
-    worker_.reuse.set_onlooker(&trace_);
+    worker_.reuse.set_observer(&trace_);
     const std::size_t pixels = result.pixels.size();
     result_.bases.resize(pixels);
     result_.shifts.resize(pixels * pixels);
 }
 
-Onlooker::~Onlooker() {
-    worker_.reuse.set_onlooker(nullptr);
+Observer::~Observer() {
+    worker_.reuse.set_observer(nullptr);
 }
 
-void Onlooker::operator()(int base, const ReuseDecision& decision) {
+void Observer::operator()(int base, const ReuseDecision& decision) {
     const int pixels = worker_.set.size();
     result_.bases[base] = {inspect_path(path(base)), path(base).radiance(), decision};
     for (int m = 0; m < pixels; ++m)
         result_.shifts[base * pixels + m] = shift(base, m, decision.scale);
 }
 
-InspectedShift Onlooker::shift(int base, int m, float scale) const {
+InspectedShift Observer::shift(int base, int m, float scale) const {
     const auto pixel = [&](int i) { return worker_.set.pixels[i]; };
     const auto outcomes = worker_.reuse.outcomes();
     InspectedShift s{pixel(base), pixel(m), !outcomes.empty(), ShiftOutcome::ok, 0, 0, 0, Rgb(0), {}, {}, {}, {}};
@@ -118,7 +118,7 @@ InspectedShift Onlooker::shift(int base, int m, float scale) const {
 }
 
 /// Adds the contributions of all light paths. Returns the slot with the largest one; -1: all are black.
-int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) const {
+int Observer::add_light_paths(int base, int m, float scale, InspectedShift& s) const {
     const LightPaths& light = worker_.reuse.light_paths();
     const OffsetPaths& offsets = worker_.reuse.offset_paths();
     float largest = 0;
@@ -140,7 +140,7 @@ int Onlooker::add_light_paths(int base, int m, float scale, InspectedShift& s) c
 }
 
 /// Returns the first slot whose shift reached its light, but was occluded; -1: none.
-int Onlooker::first_attempt(int m) const {
+int Observer::first_attempt(int m) const {
     const std::vector<OffsetTrace::End>& ends = trace_[m].ends;
     for (std::size_t slot = 0; slot < ends.size(); ++slot)
         if (ends[slot].is_there && ends[slot].last.ratio > 0)
@@ -148,8 +148,8 @@ int Onlooker::first_attempt(int m) const {
     return -1;
 }
 
-void Onlooker::add_places(int base, int m, InspectedShift& s) const {
-    for (const SeenVertex& y : trace_[m].vertices)
+void Observer::add_places(int base, int m, InspectedShift& s) const {
+    for (const DisplayVertex& y : trace_[m].vertices)
         s.offset.push_back(y.position);
     if (s.offset.empty() && !path(m).empty())
         s.offset.push_back(path(m)[0].vertex.position);
@@ -161,7 +161,7 @@ void Onlooker::add_places(int base, int m, InspectedShift& s) const {
 }
 
 /// Stores |J|, the way in which the light path ends, and, at the inspected pixel, the steps of the shift.
-void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
+void Observer::add_steps(int base, int m, int slot, InspectedShift& s) const {
     const LightPaths& light = worker_.reuse.light_paths();
     std::vector<InspectedStep> steps;
     if (base == m) {
@@ -190,7 +190,7 @@ void Onlooker::add_steps(int base, int m, int slot, InspectedShift& s) const {
 
 /// Adds scalar footprints, METHODS (25) and (26), as if the offset path had been sampled from its own pixel.
 /// Survival probabilities are those of the base path.
-void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps) const {
+void Observer::add_footprints(int base, int m, std::vector<InspectedStep>& steps) const {
     const BasePath& own = path(m);
     if (own.empty())
         return;
@@ -199,7 +199,7 @@ void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps
     glm::vec3 to_before = first.to_world(first.to_previous);
     float distance = 0; // the width begins as that of the pixel at y_1
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const SeenVertex& y = steps[i].vertex;
+        const DisplayVertex& y = steps[i].vertex;
         along.arrive(distance, std::abs(glm::dot(to_before, y.normal)));
         const Frame frame(y.normal);
         const float width = along.width(std::log2(samples_));
@@ -216,7 +216,7 @@ void Onlooker::add_footprints(int base, int m, std::vector<InspectedStep>& steps
     }
 }
 
-std::string_view Onlooker::ending_of(int slot) const {
+std::string_view Observer::ending_of(int slot) const {
     const LightPaths& light = worker_.reuse.light_paths();
     if (light.has_join() && slot == light.tail_slot())
         return "all longer light paths";

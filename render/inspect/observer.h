@@ -6,7 +6,7 @@
 namespace tessera {
 
 /// Records the shifts of one base path to all pixels of a sampling set.
-class OffsetTrace final : public ShiftOnlooker {
+class OffsetTrace final : public ShiftObserver {
 public:
     /// End of a shifted light path (a slot of LightPaths), regardless of its visibility.
     struct End {
@@ -16,10 +16,10 @@ public:
         OffsetStep last;
     };
     struct Path {
-        std::vector<SeenVertex> vertices; ///< y_1, y_2, ...
-        std::vector<OffsetStep> bounces;  ///< at y_1, y_2, ..., to the next vertex of the offset path
-        OffsetStep join;                  ///< the last reconnection to a vertex of the base path
-        std::vector<End> ends;            ///< by slot
+        std::vector<DisplayVertex> vertices; ///< y_1, y_2, ...
+        std::vector<OffsetStep> bounces;     ///< at y_1, y_2, ..., to the next vertex of the offset path
+        OffsetStep join;                     ///< the last reconnection to a vertex of the base path
+        std::vector<End> ends;               ///< by slot
     };
 
     const Path& operator[](int m) const { return paths_[m]; }
@@ -44,14 +44,14 @@ private:
 std::vector<InspectedVertex> inspect_path(const BasePath& path);
 
 /// Observes reuse_paths() on a worker's set, and records base paths and shifts.
-class Onlooker {
+class Observer {
 public:
     /// @param samples  samples per pixel so far, for footprints
     /// @param pixel    entry of the set whose shifts get InspectedShift::steps; -1: none
-    Onlooker(Worker& worker, float samples, int pixel, InspectedSet& result);
-    ~Onlooker();
-    Onlooker(const Onlooker&) = delete;
-    Onlooker& operator=(const Onlooker&) = delete;
+    Observer(Worker& worker, float samples, int pixel, InspectedSet& result);
+    ~Observer();
+    Observer(const Observer&) = delete;
+    Observer& operator=(const Observer&) = delete;
 
     void operator()(int base, const ReuseDecision& decision);
 
