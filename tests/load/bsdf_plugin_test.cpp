@@ -88,7 +88,7 @@ TEST(BsdfPlugins, Blend) {
     EXPECT_TRUE(read(around("coating", around("blendbsdf", diffuse + inner))).material.is_textured());
 }
 
-/// Returns a scene in which each BSDF "bN" nested_blends "bN-1" with itself, so that leaves double per level.
+/// Returns a scene in which each BSDF "bN" blends "bN-1" with itself, so that leaves double per level.
 std::string nested_blends(int levels) {
     std::string text = "<bsdf type='diffuse' id='b0'><float name='unheard_of' value='1'/></bsdf>";
     for (int i = 1; i <= levels; ++i) {
