@@ -64,7 +64,8 @@ TEST(RealFiles, FileNamesIgnoreCase) {
         }
         return std::string();
     }();
-    EXPECT_NE(error.find("cannot load 'none.png'"), std::string::npos) << "found, and broken: " << error;
+    EXPECT_NE(error.find("cannot load 'none.png'"), std::string::npos)
+        << "the file is found, but broken: " << error;
     std::filesystem::remove(folder.path() / "None.Png");
     std::filesystem::remove(folder.path() / "none.PNG");
     EXPECT_EQ(load_mitsuba_xml(file).description.shapes.at(0).mesh.triangles.size(), 1u);

@@ -99,7 +99,7 @@ double fraction_facing_away(const Mesh& mesh, glm::vec3 point) {
 TEST(RealScenes, CornellBox) {
     const auto file = shared_scene("cornell-box");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file);
     const SceneDescription& scene = loaded.description;
     expect_sound(scene);
@@ -135,7 +135,7 @@ TEST(RealScenes, CornellBox) {
 TEST(RealScenes, VeachAjar) {
     const auto file = shared_scene("veach-ajar");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
     const SceneDescription& scene = loaded.description;
     expect_sound(scene);
@@ -177,7 +177,7 @@ TEST(RealScenes, VeachAjar) {
 TEST(RealScenes, NumberOfThreadsDoesNotChangeTheScene) {
     const auto file = shared_scene("veach-ajar");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene one = load_mitsuba_xml(file);
     const LoadedScene two = load_mitsuba_xml(file, {}, two_threads);
     ASSERT_EQ(one.description.shapes.size(), two.description.shapes.size());
@@ -191,7 +191,7 @@ TEST(RealScenes, NumberOfThreadsDoesNotChangeTheScene) {
 TEST(RealScenes, CommandLineVariablesOverrideDefaults) {
     const auto file = shared_scene("cornell-box");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file, {{"res", "64"}, {"max_depth", "-1"}, {"nosuch", "1"}});
     EXPECT_EQ(loaded.description.size, glm::ivec2(64));
     EXPECT_EQ(loaded.description.max_depth, 65);
@@ -201,7 +201,7 @@ TEST(RealScenes, CommandLineVariablesOverrideDefaults) {
 TEST(RealScenes, KitchenMasksAndBumps) {
     const auto file = shared_scene("kitchen");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
     expect_sound(loaded.description);
     EXPECT_EQ(all(loaded.notes).find("bsdf"), std::string::npos) << all(loaded.notes);
@@ -225,7 +225,7 @@ TEST(RealScenes, OtherScenesLoadWithNotes) {
     for (const auto& [name, shapes] : expected) {
         const auto file = shared_scene(name);
         if (file.empty())
-            GTEST_SKIP() << "the shared scenes are not here";
+            GTEST_SKIP() << "the shared scenes are missing";
         const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
         expect_sound(loaded.description);
         EXPECT_EQ(loaded.description.shapes.size(), shapes);

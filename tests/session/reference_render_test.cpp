@@ -276,7 +276,7 @@ TEST_F(References, RejectACheckpointOfAChangedMeshOutOfSight) {
     EXPECT_EQ(begin_with(50)->spp_resumed(), 2);
     try {
         begin_with(51);
-        FAIL() << "resumes in another scene";
+        FAIL() << "the checkpoint resumed in another scene";
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("is of another scene (other geometry)"));
     }

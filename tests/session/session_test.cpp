@@ -351,7 +351,7 @@ TEST(Session, FollowingPaneReconstructsByItself) {
                s->reconstructed_with.norm == norm;
     };
     ASSERT_TRUE(eventually([&] { return has_all(0, Norm::l2) && has_all(1, Norm::l1); }));
-    EXPECT_EQ(session.latest(0)->images, session.latest(1)->images) << "one render";
+    EXPECT_EQ(session.latest(0)->images, session.latest(1)->images) << "both panes show one render";
     EXPECT_EQ(session.follow(2, 0), generation); // a late follower gets the existing picture
     EXPECT_TRUE(eventually([&] { return session.latest(2) && session.latest(2)->reconstruction_spp == 4; }));
     const std::uint64_t next = session.submit(0, request(Method::pt, {64, 48}));
