@@ -44,8 +44,8 @@ TEST(Crops, FitATinyImage) {
 TEST(UsualExposure, MapsNineTenthsBelowWhite) {
     RgbImage image(10, 10, Rgb(3.2f));
     image(0, 0) = Rgb(1e6f);
-    EXPECT_NEAR(usual_exposure(image), -2, 1e-5);
-    EXPECT_EQ(usual_exposure(RgbImage(4, 4, Rgb(0))), 0);
+    EXPECT_NEAR(auto_exposure(image), -2, 1e-5);
+    EXPECT_EQ(auto_exposure(RgbImage(4, 4, Rgb(0))), 0);
 }
 
 TEST(InlineImage, EmbedsAPng) {

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr glm::ivec2 size(24, 16);
-constexpr RefusedSample sample{5, 2, 7};
+constexpr InvalidSample sample{5, 2, 7};
 
 std::string command(const SceneSource& source, const RenderSettings& settings) {
     const auto scene = Room().build();

@@ -220,7 +220,7 @@ TEST(Verdict, FirefliesOfTheReferenceDoNotCount) {
     EXPECT_NEAR(f.worst, 200, 3);
     EXPECT_EQ(f.worst_pixel, glm::ivec2(20, 30));
     EXPECT_LT(f.spike, 2) << "3 of 36864 pixels are above it";
-    EXPECT_GT(f.worst_share, 0.9);
+    EXPECT_GT(f.worst_fraction, 0.9);
 }
 
 TEST(Verdict, BlackSceneAcceptsOnlyBlack) {

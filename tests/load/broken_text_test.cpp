@@ -62,7 +62,7 @@ TEST(BrokenText, Latin1IsConverted) {
 }
 
 TEST(BrokenText, EntitiesAreNotExpanded) {
-    // The "billion laughs" attack: each entity expands to ten copies of the previous one.
+    // The "billion laughs" attack: each entity reconstructs_components to ten copies of the previous one.
     std::string text = "<?xml version='1.0'?>\n<!DOCTYPE scene [\n<!ENTITY e0 'laugh'>\n";
     for (int i = 1; i < 10; ++i) {
         text += "<!ENTITY e" + std::to_string(i) + " '";

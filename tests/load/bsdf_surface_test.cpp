@@ -118,7 +118,7 @@ TEST(BsdfPlugins, Ward) {
     EXPECT_EQ(r.notes, "");
     EXPECT_TRUE(r.material.is_anisotropic());
     const Bsdf bsdf = r.material.resolve({});
-    const Ward& ward = std::get<Ward>(std::get<FurtherKinds>(bsdf.kind).kind);
+    const Ward& ward = std::get<Ward>(std::get<UncommonBsdf>(bsdf.kind).kind);
     EXPECT_EQ(ward.variant, WardVariant::duer);
     EXPECT_EQ(ward.alpha, glm::vec2(0.2f, 0.05f));
     EXPECT_EQ(ward.specular_reflectance, Rgb(0.2f));
@@ -145,7 +145,7 @@ TEST(BsdfPlugins, MediumLayer) {
                         "0.6.0");
     EXPECT_EQ(r.notes, "");
     const auto layer = [](const Material& m) {
-        return std::get<MediumLayer>(std::get<FurtherKinds>(m.resolve({}).kind).kind);
+        return std::get<MediumLayer>(std::get<UncommonBsdf>(m.resolve({}).kind).kind);
     };
     EXPECT_FLOAT_EQ(layer(r.material).scattered.r, 0.8f);
     EXPECT_FLOAT_EQ(layer(r.material).depth.r, 0.25f);

@@ -83,7 +83,7 @@ bool same_bits(const Image<Pixel>& a, const Image<Pixel>& b) {
 bool same_bits(const Demodulation& a, const Demodulation& b) {
     return same_bits(a.value, b.value) && same_bits(a.albedo, b.albedo) &&
            same_bits(a.sampled_albedo, b.sampled_albedo) && same_bits(a.albedo_variance, b.albedo_variance) &&
-           same_bits(a.sampled_share, b.sampled_share) && same_bits(a.sampled_variance, b.sampled_variance) &&
+           same_bits(a.sampled_weight, b.sampled_weight) && same_bits(a.sampled_variance, b.sampled_variance) &&
            same_bits(a.value_covariance, b.value_covariance) &&
            same_bits(a.unexplained_variance, b.unexplained_variance);
 }
@@ -99,7 +99,8 @@ bool same_bits(const GradientImages& a, const GradientImages& b) {
            same_bits(a.very_direct, b.very_direct) && same_bits(a.primal_variance, b.primal_variance) &&
            same_bits(a.dx_variance, b.dx_variance) && same_bits(a.dy_variance, b.dy_variance) &&
            same_bits(a.demodulation, b.demodulation) &&
-           std::ranges::equal(a.parts, b.parts, [](const auto& p, const auto& q) { return same_bits(p, q); });
+           std::ranges::equal(a.components, b.components,
+                              [](const auto& p, const auto& q) { return same_bits(p, q); });
 }
 
 GradientImages render(const RenderSettings& settings, int threads) {

@@ -67,7 +67,7 @@ TEST_P(LearningReplay, ReproducesSamplesOfAnyPassBitExactly) {
             different_without_learning += sample(LearnedReuse(size, settings)) != own;
         }
     }
-    EXPECT_EQ(different_without_learning > 0, (settings.adapt_tile && has_tiles_to_cut(settings)) ||
+    EXPECT_EQ(different_without_learning > 0, (settings.adapt_tile && can_split_tiles(settings)) ||
                                                   settings.path_guiding == Guiding::on || has_positions(settings));
 }
 

@@ -1,7 +1,7 @@
 // The threads of a render, the BVH and reconstructions check the available memory before they allocate.
 
 #include "render/io/available_memory.h"
-#include "render/run/fitting_reconstruction.h"
+#include "render/run/checked_reconstruction.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/memory_limit.h"
@@ -63,9 +63,9 @@ TEST_F(MemoryCheck, RefusesAReconstruction) {
     const GradientImages images{black, black, black, {}};
     Reconstructor reconstructor;
     const std::string text =
-        refusal(10 << 20, [&] { reconstruct_if_it_fits(reconstructor, images, {Norm::weighted}); });
+        refusal(10 << 20, [&] { reconstruct_checked(reconstructor, images, {Norm::weighted}); });
     EXPECT_EQ(text.find("640x480 pixels reconstructed by weighted need 38 MiB of memory, and "), 0u) << text;
-    EXPECT_EQ(reconstruct_if_it_fits(reconstructor, images, {Norm::weighted}).image.width(), 640);
+    EXPECT_EQ(reconstruct_checked(reconstructor, images, {Norm::weighted}).image.width(), 640);
 }
 
 TEST_F(MemoryCheck, NamesWhatAnUnforeseenFailureNeeded) {

@@ -202,7 +202,7 @@ TEST(Doubt, IsTheRelativeErrorOr1AtMarkedPixels) {
     EXPECT_EQ(doubt(2, 2), doubt(1, 1));
     EXPECT_EQ(doubt(4, 2), 0);
     EXPECT_EQ(doubt(7, 1), 1);
-    EXPECT_DOUBLE_EQ(untrusted_share(doubt), 1 / 45.0);
+    EXPECT_DOUBLE_EQ(untrusted_fraction(doubt), 1 / 45.0);
     EXPECT_EQ(doubt_of({RgbImage(2, 2, Rgb(0)), RgbImage(2, 2, Rgb(0))}, Image<float>(2, 2, 0))(1, 1), 0);
 }
 
@@ -219,7 +219,7 @@ TEST_F(References, DoubtPixelsThatRestOnOneSample) {
     subject = {{}, scene, scene->camera()};
     recipe.settings.max_depth = 6;
     const ReferenceImage few = complete("few.exr");
-    EXPECT_GT(untrusted_share(few.doubt), 0.05);
+    EXPECT_GT(untrusted_fraction(few.doubt), 0.05);
     const RgbImage* layer = nullptr;
     const ExrFile written = read_exr(folder.path() / "few.exr");
     ASSERT_NE(layer = find_layer(written, "doubt"), nullptr);

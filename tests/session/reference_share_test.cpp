@@ -53,13 +53,13 @@ struct ReferenceShards : testing::Test {
         ReferenceRender render(path, subject, of_shard, pool);
         EXPECT_EQ(render.spp_resumed(), end_at);
         EXPECT_TRUE(render.run([](const ReferenceRender&) { return true; }));
-        render.finish_share();
+        render.finish_shard();
         EXPECT_FALSE(fs::exists(reference_checkpoint(path)));
         return path;
     }
     std::string refusal(const std::vector<fs::path>& files) const {
         try {
-            merge_shares(files, file("none.exr"));
+            merge_shards(files, file("none.exr"));
         } catch (const std::runtime_error& error) {
             EXPECT_FALSE(fs::exists(file("none.exr")));
             return error.what();
@@ -78,7 +78,7 @@ TEST_F(ReferenceShards, OneOfOneEqualsTheWhole) {
     for (const Method method : all_methods) {
         recipe.settings.method = method;
         const ReferenceImage expected = whole("whole.exr");
-        const ReferenceImage merged = merge_shares({shard(1, 1)}, file("merged.exr"));
+        const ReferenceImage merged = merge_shards({shard(1, 1)}, file("merged.exr"));
         EXPECT_EQ(checksum_of(merged), checksum_of(expected)) << short_name(method);
         EXPECT_EQ(merged.settings, expected.settings);
         EXPECT_EQ(merged.camera, expected.camera);
@@ -91,14 +91,14 @@ TEST_F(ReferenceShards, HaveTheSameBitsInAnyOrder) {
     std::vector<fs::path> files;
     for (int number = 1; number <= 5; ++number)
         files.push_back(shard(number, 5));
-    const std::uint32_t expected = checksum_of(merge_shares(files, file("merged.exr")));
+    const std::uint32_t expected = checksum_of(merge_shards(files, file("merged.exr")));
     EXPECT_EQ(checksum_of(read_reference(file("merged.exr"))), expected);
     std::reverse(files.begin(), files.end());
     for (fs::path& path : files) // rendered again with interruptions
         fs::remove(path);
     for (int number = 5; number >= 1; --number)
         shard(number, 5, {}, 2);
-    EXPECT_EQ(checksum_of(merge_shares(files, file("again.exr"))), expected);
+    EXPECT_EQ(checksum_of(merge_shards(files, file("again.exr"))), expected);
 }
 
 /// If a method learns nothing from earlier passes, the shards have the samples of the whole reference. The
@@ -110,7 +110,7 @@ TEST_F(ReferenceShards, HaveTheSamplesOfTheWhole) {
     std::vector<fs::path> files;
     for (int number = 1; number <= 5; ++number)
         files.push_back(shard(number, 5));
-    const ReferenceImage merged = merge_shares(files, file("merged.exr"));
+    const ReferenceImage merged = merge_shards(files, file("merged.exr"));
     for (std::size_t i = 0; i < expected.mean.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const float value = expected.mean.data()[i][c];
@@ -131,7 +131,7 @@ TEST_F(ReferenceShards, AreUnbiasedForAnyNumber) {
         std::vector<fs::path> files;
         for (int number = 1; number <= 50; ++number)
             files.push_back(shard(number, 50, fmt::format("{}-{}.share", render, number)));
-        const ReferenceImage merged = merge_shares(files, file(fmt::format("merged-{}.exr", render)));
+        const ReferenceImage merged = merge_shards(files, file(fmt::format("merged-{}.exr", render)));
         EXPECT_EQ(variance_of(merged).size(), expected.mean.size());
         double squares = 0;
         for (std::size_t i = 0; i < expected.mean.size(); ++i) {

@@ -55,9 +55,9 @@ TEST_P(InvalidSamples, BuffersStayFinite) {
         EXPECT_GT(counters.refused_samples, 0u);
         EXPECT_LT(counters.refused_samples,
                   counters.rays[0] / 10); // counts invalid samples, not all pixels that reuse them
-        ASSERT_FALSE(counters.first_refused.list().empty());
-        EXPECT_EQ(counters.first_refused.list()[0].pass, 0);
-        const std::string text = refused_text(counters, settings.seed);
+        ASSERT_FALSE(counters.first_invalid.list().empty());
+        EXPECT_EQ(counters.first_invalid.list()[0].pass, 0);
+        const std::string text = invalid_text(counters, settings.seed);
         EXPECT_NE(text.find("pass 0"), std::string::npos) << text;
         EXPECT_NE(text.find("seed 77"), std::string::npos) << text;
         texts.insert(text);
@@ -76,16 +76,16 @@ void expect_inspection_finds_invalid_samples(RenderSettings settings, glm::ivec2
         ThreadPool pool(1);
         for (int pass = 0; pass < passes; ++pass)
             render.pass(pool);
-        const auto first = render.counters().first_refused.list();
-        ASSERT_LT(first.size(), FirstRefused::most); // the list is complete
+        const auto first = render.counters().first_invalid.list();
+        ASSERT_LT(first.size(), FirstInvalid::most); // the list is complete
         refused += first.size();
         for (int i = 0; i < passes * small.x * small.y; ++i) {
-            const RefusedSample sample{i / (small.x * small.y), i / small.x % small.y, i % small.x};
+            const InvalidSample sample{i / (small.x * small.y), i / small.x % small.y, i % small.x};
             const glm::ivec2 pixel(sample.x, sample.y);
             const Inspection seen = inspect(
                 *scene, scene->camera(), small, settings,
                 replay_learning(*scene, scene->camera(), small, settings, sample.pass, pixel), sample.pass, pixel);
-            EXPECT_EQ(seen.is_refused, std::ranges::find(first, sample) != first.end())
+            EXPECT_EQ(seen.is_invalid, std::ranges::find(first, sample) != first.end())
                 << sample.pass << ": " << sample.x << ", " << sample.y;
         }
     }

@@ -197,7 +197,7 @@ TEST(Session, ReconstructionCanBeCancelled) {
     session.set_reconstruction(0, {Norm::l1});
     ASSERT_TRUE(eventually([&] { return session.reconstructing(0).has_value(); }));
     EXPECT_EQ(session.reconstructing(0)->spp, 1);
-    session.give_up_reconstruction(0);
+    session.stop_reconstruction(0);
     ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
     std::this_thread::sleep_for(50ms);
     EXPECT_FALSE(session.reconstructing(0)); // it does not restart
