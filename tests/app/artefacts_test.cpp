@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-TEST(ReferenceNoise, HasNoFirstAndSecondReference) {
+TEST(ReferenceNoise, IsSymmetricInBothReferences) {
     const RgbImage one = random_image(40, 24, 1, 1, 0.5f), other = random_image(40, 24, 2, 1, 0.5f);
     const ReferenceNoise a = measure_reference_noise(one, other), b = measure_reference_noise(other, one);
     EXPECT_GT(a.squared_error_error, 0);
@@ -20,8 +20,9 @@ TEST(ReferenceNoise, HasNoFirstAndSecondReference) {
     EXPECT_EQ(a.pieces[1], b.pieces[0]);
 }
 
-TEST(ReferenceNoise, IsTheStandardErrorThatReferencesGiveToErrors) {
-    // For an image without an error of its own, relMSE is the mean of n1 n2 / (1 + epsilon).
+TEST(ReferenceNoise, PredictsTheStandardErrorOfErrors) {
+    // For the exact image, the floor-free relMSE is the mean of n1 n2 / (1 + epsilon), with the noise n1, n2 of
+    // the halves.
     constexpr int runs = 200;
     const RgbImage truth(32, 24, Rgb(1));
     double squares = 0, expected = 0;
@@ -33,10 +34,10 @@ TEST(ReferenceNoise, IsTheStandardErrorThatReferencesGiveToErrors) {
     EXPECT_NEAR(std::sqrt(expected / squares), 1, 0.25) << "five standard errors of 200 runs";
 }
 
-TEST(Artefacts, AreThoseOfKnownImages) {
+TEST(Artefacts, MatchKnownImages) {
     const RgbImage reference(20, 9, Rgb(2));
     RgbImage image(reference);
-    image(17, 8) = Rgb(6); // in the last piece, of 4x1 pixels
+    image(17, 8) = Rgb(6); // in the last piece, of 4 x 1 pixels
     const Artefacts a = measure_artefacts(image, reference, reference);
     EXPECT_NEAR(a.error.relative_mse, 4 / 1.001 / 180, 1e-9) << "in units of the reference's mean";
     EXPECT_NEAR(a.mean, 1 + 2.0 / 180, 1e-6);
@@ -49,8 +50,8 @@ TEST(Artefacts, AreThoseOfKnownImages) {
     EXPECT_NEAR(a.pieces[5], 1.5 / std::sqrt(1.001), 1e-6);
 }
 
-/// Of 200 pixels five are far too bright and three far too dark; one of the black ones is hardly off.
-TEST(Artefacts, TellWhatIsSeenAndWhatIsOffTenfold) {
+/// Five of 200 pixels are far too bright, and three far too dark. A black pixel is only slightly off.
+TEST(Artefacts, MeasureToneMappedAndTenfoldErrors) {
     RgbImage reference(20, 10, Rgb(1)), image = reference;
     reference(0, 0) = image(0, 0) = Rgb(0);
     for (int x = 5; x < 10; ++x)
@@ -60,16 +61,16 @@ TEST(Artefacts, TellWhatIsSeenAndWhatIsOffTenfold) {
     image(0, 0) = Rgb(0.05f);
     const Artefacts a = measure_artefacts(image, reference, reference);
     EXPECT_DOUBLE_EQ(a.tenfold, 8 / 200.0);
-    // 1 is mapped to 1/2 in units of the mean, which is 199/200: the bright ones are off by 1/2, and no more.
+    // The tone mapping maps 1 to 1/2 in units of the mean, 199/200, so bright pixels are off by at most 1/2.
     EXPECT_NEAR(a.tone_mapped, (5 * 0.25 + 3 * 0.49 * 0.49) / 200, 1e-4);
     EXPECT_EQ(measure_artefacts(reference, reference, reference).tenfold, 0);
 }
 
-TEST(Artefacts, AreFiniteWhateverThePixels) {
+TEST(Artefacts, AreFiniteForAllPixelValues) {
     const RgbImage reference(16, 8, Rgb(1e-6f));
     RgbImage image(reference);
     image(3, 4).g = NAN;
-    image(5, 6) = Rgb(1e35f); // beyond floats in units of the reference's mean
+    image(5, 6) = Rgb(1e35f); // overflows floats in units of the reference's mean
     const Artefacts a = measure_artefacts(image, reference, reference);
     EXPECT_EQ(a.bad_pixels, 2u);
     for (const std::vector<double>& values : {a.worst, a.pieces, {a.error.relative_mse, a.mean}})

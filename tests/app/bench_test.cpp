@@ -1,4 +1,4 @@
-// `tessera bench`: its files, and that a kill costs no finished run.
+// `tessera bench`: its files, and resuming after a kill without rendering finished runs again.
 #include "render/io/exr.h"
 #include "render/run/reference_image.h"
 #include "tests/app/program.h"
@@ -46,7 +46,7 @@ protected:
         return std::count(all.begin(), all.end(), '\n');
     }
 
-    /// What the jobs' files hold, by their names.
+    /// Returns the contents of the finished jobs' files, by file name.
     std::map<std::string, std::string> finished_jobs() const {
         std::map<std::string, std::string> jobs;
         std::error_code none;
@@ -90,18 +90,18 @@ TEST_F(BenchCommand, WritesAPageWithCharts) {
                              "value=\"flicker\"", "querySelectorAll('.compare')"})
         EXPECT_THAT(page, HasSubstr(part));
     for (const char* part : {"src=\"http", "href=", "<script src", "src=\"out"})
-        EXPECT_THAT(page, Not(HasSubstr(part))) << "it needs no other file";
+        EXPECT_THAT(page, Not(HasSubstr(part))) << "the page needs no other file";
 
     fs::resize_file(folder() / "out/images/box-pt.exr", 200);
     const Outcome again = run(folder(), "bench box.xml --methods pt,gpr --recon l2,l1 --seeds 2" + small_);
     EXPECT_EQ(again.exit_code, 0);
     EXPECT_THAT(again.output, HasSubstr("box-pt.exr"));
-    EXPECT_THAT(text("out/bench.html"), HasSubstr("alt=\"gpr l1\"")) << "the other pictures";
+    EXPECT_THAT(text("out/bench.html"), HasSubstr("alt=\"gpr l1\"")) << "the page shows the other pictures";
 }
 
-/// By samples nothing is told of equal time. By time the page says how much lower the error of the reference's
-/// method is.
-TEST_F(BenchCommand, SaysByWhichMethodReferencesAre) {
+/// With a limit of samples, the page states nothing about equal time. With a limit of time, it compares the error
+/// of the reference's method at equal time.
+TEST_F(BenchCommand, StatesTheMethodOfReferences) {
     ASSERT_EQ(
         run(folder(), "bench box.xml -m pt,gpr --recon l2 --seeds 2 --reference-method pt" + small_).exit_code, 0);
     EXPECT_THAT(text("out/bench.html"), HasSubstr("Reference box-32x18-d8.exr: by PT; relMSE of its own"));
@@ -114,15 +114,15 @@ TEST_F(BenchCommand, SaysByWhichMethodReferencesAre) {
     EXPECT_THAT(text("timed/bench.html"), HasSubstr("at equal time its error is "));
 }
 
-TEST_F(BenchCommand, AQuickOneTakesLessWhereNothingIsSaid) {
+TEST_F(BenchCommand, QuickReducesTheDefaults) {
     const Outcome o = run(folder(), "bench box.xml --quick -m pt,gpr --size 32x18 --spp 4 --reference refs "
                                     "--reference-spp 16 --threads 1 -o out");
     ASSERT_EQ(o.exit_code, 0) << o.output;
-    EXPECT_EQ(lines("out/bench.csv"), 1 + 2 * 3) << "of one norm, and of 4 samples all halves";
+    EXPECT_EQ(lines("out/bench.csv"), 1 + 2 * 3) << "one norm, and all halvings of 4 samples";
     EXPECT_THAT(text("out/bench.csv"), HasSubstr("\nbox,gpr,weighted,4 spp,4,2,"));
 }
 
-TEST_F(BenchCommand, TimeIsTakenOfBothClocks) {
+TEST_F(BenchCommand, MeasuresCpuAndWallTime) {
     ASSERT_EQ(run(folder(),
                   "bench box.xml --methods pt --seeds 1 --time 0.2 --halvings 1 --size 32x18 --reference "
                   "refs --reference-spp 16 --threads 1 -o out")
@@ -137,7 +137,7 @@ TEST_F(BenchCommand, TimeIsTakenOfBothClocks) {
     EXPECT_GT(results[1]["wall_seconds"], 0);
 }
 
-TEST_F(BenchCommand, GoesOnAfterAKill) {
+TEST_F(BenchCommand, ResumesAfterAKill) {
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder().c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
@@ -164,7 +164,7 @@ TEST_F(BenchCommand, GoesOnAfterAKill) {
     EXPECT_TRUE(fs::exists(folder() / "out/images/box-pt.exr"));
 }
 
-TEST_F(BenchCommand, ReferencesHaveAFolderWhereNoneIsSaid) {
+TEST_F(BenchCommand, ReferencesHaveADefaultFolder) {
     for (const char* command : {"bench", "sweep"}) {
         const Outcome o = run(folder(), std::string(command) +
                                             " box.xml --methods pt --seeds 1 --size 32x18 --spp 4 "
@@ -175,7 +175,7 @@ TEST_F(BenchCommand, ReferencesHaveAFolderWhereNoneIsSaid) {
     }
 }
 
-TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
+TEST_F(BenchCommand, RejectsTheReferenceOfAnotherScene) {
     const std::string bench = "bench box.xml --methods pt --seeds 1" + small_;
     ASSERT_EQ(run(folder(), bench).exit_code, 0);
     ASSERT_EQ(run(folder(), "reference box.xml -m pt --spp 4 --size 32x18 --max-depth 8 -o refs/pt.exr").exit_code,
@@ -184,7 +184,7 @@ TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
     folder_.write("box.xml", box + "<!-- a remark -->\n");
     const Outcome same = run(folder(), bench);
     EXPECT_EQ(same.exit_code, 0) << same.output;
-    EXPECT_THAT(same.output, Not(HasSubstr("refs/"))) << "nothing is to be said";
+    EXPECT_THAT(same.output, Not(HasSubstr("refs/"))) << "an equal scene gives no message";
 
     const std::string red = "0.60, 0.06, 0.05";
     folder_.write("box.xml", box.replace(box.find(red), red.size(), "0.60, 0.06, 0.06"));
@@ -193,7 +193,7 @@ TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
           "sweep box.xml --vary tile=2,3" + small_.substr(0, small_.find(" --halvings")) +
               " --reference refs --threads 1 -o out",
           std::string("stability box.xml --size 32x18 --spp 8 --seeds 2 --reference refs --threads 1 -o out")}) {
-        if (command.rfind("stability", 0) == 0) // which takes those of PT alone
+        if (command.rfind("stability", 0) == 0) // stability accepts only references by PT
             fs::rename(folder() / "refs/pt.exr", folder() / "refs/box-32x18-d8.exr");
         const Outcome other = run(folder(), command);
         EXPECT_EQ(other.exit_code, 2) << other.output;
@@ -205,8 +205,8 @@ TEST_F(BenchCommand, TheReferenceOfAnotherSceneIsRefused) {
     EXPECT_EQ(run(folder(), bench).exit_code, 0);
 }
 
-TEST_F(BenchCommand, AnErrorBelowItsUncertaintyIsNoNumber) {
-    // Halves that lie on both sides of the very picture that is rendered.
+TEST_F(BenchCommand, ReportsErrorsBelowTheirUncertaintyAsBounds) {
+    // The reference halves lie on both sides of the rendered picture.
     ASSERT_EQ(
         run(folder(), "render box.xml -m gpr --size 32x18 --max-depth 8 --spp 4 --recon l2 -o box.exr").exit_code,
         0);

@@ -1,5 +1,5 @@
-// Claims: that of many processes one does a job, that a job of one that was killed goes on, and that no clock but
-// one's own tells who was.
+// Claims: one of many processes does a job, another takes over if it is killed, and each process uses only its own
+// clock.
 #include "app/experiment/claim.h"
 #include "app/experiment/job_worker.h"
 #include "tests/app/program.h"
@@ -48,11 +48,11 @@ protected:
         std::ifstream in(file);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    /// Another process that claims the file and does as it is told; returns when it has claimed it.
+    /// Forks a process that claims the file and calls `then`. Returns after the claim.
     pid_t claim_in_another_process(const std::function<void(Claim&)>& then) const {
         const pid_t child = fork();
         if (child == 0) {
-            const std::unique_ptr<Claim> claim = Claims(quick_).take(file_);
+            const std::unique_ptr<Claim> claim = Claims(silence_).take(file_);
             if (claim)
                 then(*claim);
             _exit(claim ? 0 : 1);
@@ -61,12 +61,12 @@ protected:
         return child;
     }
 
-    static constexpr double quick_ = 0.5; // seconds
+    static constexpr double silence_ = 0.5; // silence after which a claim can be taken over, seconds
     TemporaryFolder folder_;
     fs::path file_ = folder_.path() / "job";
 };
 
-TEST_F(ClaimedFile, IsMadeByOne) {
+TEST_F(ClaimedFile, IsMadeByOneProcess) {
     Claims mine(60), others(60);
     std::unique_ptr<Claim> claim = mine.take(file_);
     ASSERT_TRUE(claim);
@@ -76,13 +76,13 @@ TEST_F(ClaimedFile, IsMadeByOne) {
     claim->finish("found\n");
     EXPECT_THAT(names(), ElementsAre("job"));
     EXPECT_THAT(text(file_), testing::EndsWith("}\nfound\n"));
-    EXPECT_THAT(text(file_), HasSubstr(worker_name())) << "who made it";
+    EXPECT_THAT(text(file_), HasSubstr(worker_name())) << "the file names its worker";
     claim.reset();
-    EXPECT_FALSE(others.take(file_)) << "it is there";
+    EXPECT_FALSE(others.take(file_)) << "the file exists";
     EXPECT_THAT(names(), ElementsAre("job"));
 }
 
-TEST_F(ClaimedFile, GoesBackWhereItIsNotMade) {
+TEST_F(ClaimedFile, IsReleasedIfItIsNotMade) {
     Claims mine(60), others(60);
     std::unique_ptr<Claim> claim = mine.take(file_);
     claim.reset();
@@ -91,12 +91,12 @@ TEST_F(ClaimedFile, GoesBackWhereItIsNotMade) {
     EXPECT_THAT(names(), IsEmpty());
 }
 
-TEST_F(ClaimedFile, OfOneThatWasKilledGoesToOneOther) {
+TEST_F(ClaimedFile, PassesFromAKilledProcessToOneOther) {
     const pid_t child = claim_in_another_process([](Claim&) { pause(); });
     const std::string dead = Claims::owner_of(file_);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    std::vector<Claims> others(4, Claims(quick_));
+    std::vector<Claims> others(4, Claims(silence_));
     std::vector<std::unique_ptr<Claim>> taken;
     EXPECT_TRUE(eventually([&] {
         for (Claims& one : others)
@@ -113,7 +113,7 @@ TEST_F(ClaimedFile, OfOneThatWasKilledGoesToOneOther) {
     EXPECT_THAT(names(), ElementsAre("job"));
 }
 
-TEST_F(ClaimedFile, OfOneThatWasKilledTwiceGoesOn) {
+TEST_F(ClaimedFile, PassesOnAfterTwoKills) {
     folder_.write("job.claim", "torn");
     folder_.write("job.claim2", "");
     Claims claims(0.05);
@@ -124,9 +124,9 @@ TEST_F(ClaimedFile, OfOneThatWasKilledTwiceGoesOn) {
     EXPECT_THAT(names(), IsEmpty());
 }
 
-TEST_F(ClaimedFile, OfOneThatLivesStays) {
+TEST_F(ClaimedFile, StaysWithALivingProcess) {
     const pid_t child = claim_in_another_process([](Claim&) { pause(); });
-    Claims claims(0.001); // what the claim itself says of silence counts
+    Claims claims(0.001); // the silence stated in the claim applies instead
     using namespace std::chrono;
     int refused = 0;
     for (const auto end = steady_clock::now() + seconds(2); steady_clock::now() < end; ++refused) {
@@ -138,28 +138,28 @@ TEST_F(ClaimedFile, OfOneThatLivesStays) {
     waitpid(child, nullptr, 0);
 }
 
-/// Times of files are the file server's, or another host's: what they say is nobody's business.
-TEST_F(ClaimedFile, ClocksOfOthersDoNotCount) {
+/// File times come from the file server or another host, so they are ignored.
+TEST_F(ClaimedFile, IgnoresFileTimes) {
     for (const int hours : {-1, 1}) {
         folder_.write("job.claim", "{\"worker\":\"other\",\"silence\":0.3,\"beat\":\"0000000001\"}\n");
         fs::last_write_time(folder_.path() / "job.claim",
                             fs::file_time_type::clock::now() + std::chrono::hours(hours));
         Claims claims(60);
         const auto begin = std::chrono::steady_clock::now();
-        EXPECT_FALSE(claims.take(file_)) << "it may live, whatever the file's time";
+        EXPECT_FALSE(claims.take(file_)) << "the process may live, whatever the file time";
         EXPECT_TRUE(eventually([&] { return claims.take(file_) != nullptr; }));
         EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(300));
     }
 }
 
-/// A process that was held up for long, and finds its job done by another.
-TEST_F(ClaimedFile, ThatTwoBelieveToHaveIsMadeOnce) {
+/// A process is suspended for long, and another process does its job.
+TEST_F(ClaimedFile, IsMadeOnceIfTwoProcessesClaimIt) {
     const pid_t child = claim_in_another_process([](Claim& claim) {
         raise(SIGSTOP);
         claim.finish("late\n");
     });
     waitpid(child, nullptr, WUNTRACED);
-    Claims claims(quick_);
+    Claims claims(silence_);
     std::unique_ptr<Claim> claim;
     EXPECT_TRUE(eventually([&] { return (claim = claims.take(file_)) != nullptr; }));
     claim->finish("sooner\n");
@@ -171,7 +171,7 @@ TEST_F(ClaimedFile, ThatTwoBelieveToHaveIsMadeOnce) {
     EXPECT_THAT(text(file_), testing::EndsWith("}\nsooner\n"));
 }
 
-TEST_F(ClaimedFile, WhereNoneCanBeMadeIsSaid) {
+TEST_F(ClaimedFile, ReportsAnUnwritableFolder) {
     try {
         Claims(60).take(folder_.path() / "none/job");
         FAIL();
@@ -180,14 +180,14 @@ TEST_F(ClaimedFile, WhereNoneCanBeMadeIsSaid) {
     }
 }
 
-TEST(ClaimName, TellsWhatIsClaimed) {
+TEST(ClaimName, GivesTheNameOfTheClaimedFile) {
     EXPECT_EQ(claimed_by("job.claim"), "job");
     EXPECT_EQ(claimed_by("job.claim12"), "job");
     EXPECT_EQ(claimed_by("job.claims"), "");
     EXPECT_EQ(claimed_by("job"), "");
 }
 
-/// Jobs that count how often they were done. Every seventh can be begun when the one before it is done.
+/// Jobs that count their runs. Every seventh job waits for the previous one.
 class CountedJobs final : public JobList {
 public:
     CountedJobs(fs::path folder, std::vector<std::atomic<int>>& counts)
@@ -224,14 +224,14 @@ TEST(JobWorkers, DoEachJobOnce) {
                 ended += JobWorker(jobs, 1).run([] {});
             });
     }
-    EXPECT_EQ(ended, 8) << "all wait until all is done";
+    EXPECT_EQ(ended, 8) << "every worker waits until all jobs are done";
     for (std::size_t job = 0; job < counts.size(); ++job)
         EXPECT_EQ(counts[job], job == 40 ? 0 : 1) << job;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 200)
         << "no claim is left";
 }
 
-/// A thousand jobs, of which this worker does the first; others then have done the rest, which it does not know.
+/// A thousand jobs. Running the first one also writes the files of the rest, as other workers do.
 class DoneByOthers final : public JobList {
 public:
     explicit DoneByOthers(fs::path folder) : folder_(std::move(folder)) {}
@@ -252,7 +252,7 @@ private:
     fs::path folder_;
 };
 
-TEST(JobWorker, EndsWhereOthersHaveDoneTheRest) {
+TEST(JobWorker, EndsIfOthersHaveDoneTheRest) {
     const TemporaryFolder folder;
     DoneByOthers jobs(folder.path());
     EXPECT_TRUE(JobWorker(jobs, 60).run([] {}));

@@ -1,4 +1,4 @@
-// The program as a user meets it: bad input gets one clear message and exit code 2, and leaves no file behind.
+// The program's command line. Bad input gives one message and exit code 2, and leaves no file.
 #include "render/io/exr.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/scene/camera.h"
@@ -44,12 +44,12 @@ protected:
     fs::path box_ = folder_ / "box.xml";
 };
 
-TEST_F(CommandLine, HelpOfScriptsKeepsColumnsApart) {
+TEST_F(CommandLine, HelpOfScriptsSeparatesColumns) {
     const std::string help = run(folder_, "view --help").output;
     EXPECT_THAT(help, testing::HasSubstr("wait scene | spp N | seconds S | reference until it is loaded"));
 }
 
-TEST_F(CommandLine, HelpOfManyOptionsIsInGroupsTheEverydayOnesFirst) {
+TEST_F(CommandLine, HelpGroupsOptionsWithEverydayOnesFirst) {
     for (const char* command : {"bench", "stability", "sweep", "render", "view", "reference"}) {
         const std::string help = run(folder_, std::string(command) + " --help").output;
         const std::size_t everyday = help.find("\nEveryday:\n"), published = help.find("\nPublished settings:\n"),
@@ -62,20 +62,21 @@ TEST_F(CommandLine, HelpOfManyOptionsIsInGroupsTheEverydayOnesFirst) {
         EXPECT_LT(help.find("\nExpert:\n"), help.find("\n  --threads ")) << command;
         EXPECT_NE(help.find("\n  --threads "), std::string::npos) << command;
     }
-    EXPECT_THAT(run(folder_, "compare --help").output, testing::HasSubstr("\nOptions:\n")) << "a few need none";
+    EXPECT_THAT(run(folder_, "compare --help").output, testing::HasSubstr("\nOptions:\n"))
+        << "few options need no groups";
 }
 
-TEST_F(CommandLine, OptionsOfRenderAreFewAndAllInGroups) {
+TEST_F(CommandLine, RenderHasFewOptionsAllInGroups) {
     const std::string help = run(folder_, "render --help").output;
     EXPECT_THAT(help, testing::Not(testing::HasSubstr("Other options")));
     std::istringstream lines(help);
     int options = 0;
     for (std::string line; std::getline(lines, line);)
         options += line.starts_with("  -");
-    EXPECT_LE(options, 28); // with --help
+    EXPECT_LE(options, 28); // including --help
 }
 
-TEST_F(CommandLine, ASceneAloneIsToBeLookedAt) {
+TEST_F(CommandLine, ASceneAloneOpensTheViewer) {
     const Outcome help = run(folder_, "box.xml --help");
     EXPECT_EQ(help.exit_code, 0) << help.output;
     EXPECT_NE(help.output.find("explore a scene in a window"), std::string::npos) << help.output;
@@ -148,7 +149,7 @@ TEST_F(CommandLine, BadInputGetsAMessageAndExitCode2) {
         EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
 }
 
-TEST_F(CommandLine, NamesNeedNotBeUtf8) {
+TEST_F(CommandLine, AcceptsNamesThatAreNotUtf8) {
     fs::copy_file(folder_ / "box.xml", folder_ / "sc\xe8ne.xml");
     const std::string size = " --size 24x16 --max-depth 3 ";
     for (const std::string& command :
@@ -162,7 +163,7 @@ TEST_F(CommandLine, NamesNeedNotBeUtf8) {
     EXPECT_EQ(nlohmann::json::parse(stats)["settings"]["scene"], "sc\xef\xbf\xbdne.xml");
 }
 
-TEST_F(CommandLine, WhatDoesNotFitIntoMemoryIsRefusedWithFigures) {
+TEST_F(CommandLine, RefusesWhatExceedsMemoryWithSizes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers take all address space";
 #endif
@@ -180,10 +181,10 @@ TEST_F(CommandLine, WhatDoesNotFitIntoMemoryIsRefusedWithFigures) {
     EXPECT_FALSE(fs::exists(folder_ / "out.exr"));
 }
 
-TEST_F(CommandLine, AFullDiskDoesNotLoseThePicture) {
+TEST_F(CommandLine, KeepsThePictureIfTheDiskIsFull) {
     if (!fs::exists("/dev/full"))
         GTEST_SKIP() << "there is no /dev/full";
-    fs::create_symlink("/dev/full", folder_ / "full.png"); // takes nothing
+    fs::create_symlink("/dev/full", folder_ / "full.png"); // rejects all writes
     const Outcome o = run(folder_, "render box.xml --size 16x16 --spp 1 -o full.png");
     EXPECT_NE(o.exit_code, 0);
     const std::string mark = "the picture is kept as ";
@@ -195,7 +196,7 @@ TEST_F(CommandLine, AFullDiskDoesNotLoseThePicture) {
     EXPECT_TRUE(fs::is_symlink(folder_ / "full.png"));
 }
 
-TEST_F(CommandLine, LightThatIsTooStrongIsCut) {
+TEST_F(CommandLine, ClampsExcessiveRadiance) {
     write("bright.xml", "<scene version='3.0.0'><shape type='cube'/><emitter type='constant'><rgb name='radiance' "
                         "value='3e38'/></emitter></scene>");
     const Outcome o =
@@ -207,7 +208,7 @@ TEST_F(CommandLine, LightThatIsTooStrongIsCut) {
             ASSERT_TRUE(std::isfinite(pixel.r + pixel.g + pixel.b)) << layer.name;
 }
 
-TEST_F(CommandLine, WritesAPngWhereTheNameSaysSo) {
+TEST_F(CommandLine, WritesAPngForANameInPng) {
     const Outcome o = run(folder_, "render box.xml --size 24x16 --spp 1 -o out.PNG");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     std::ifstream file(folder_ / "out.PNG", std::ios::binary);
@@ -249,7 +250,7 @@ TEST_F(CommandLine, RendersLayersSettingsAndStats) {
             EXPECT_TRUE(stats["seconds"][phase][clock].is_number()) << phase << ' ' << clock;
 }
 
-TEST_F(CommandLine, BuffersTellHowShiftsEnded) {
+TEST_F(CommandLine, BuffersHoldShiftOutcomes) {
     ASSERT_EQ(run(folder_, "render box.xml -m pr --size 24x16 --spp 4 --buffers -o out.exr").exit_code, 0);
     const ExrFile file = read_exr(folder_ / "out.exr");
     const auto value = [&](const std::string& layer, std::size_t i) {
@@ -267,7 +268,7 @@ TEST_F(CommandLine, BuffersTellHowShiftsEnded) {
     EXPECT_EQ(find_layer(read_exr(folder_ / "pt.exr"), "shifts_ok"), nullptr);
 }
 
-TEST_F(CommandLine, ThreadsDoNotChangeTheFile) {
+TEST_F(CommandLine, NumberOfThreadsDoesNotChangeTheFile) {
     const std::string render = "render box.xml -m gpr --size 40x30 --spp 2 --buffers ";
     ASSERT_EQ(run(folder_, render + "--threads 1 -o one.exr").exit_code, 0);
     ASSERT_EQ(run(folder_, render + "--threads 2 -o two.exr").exit_code, 0);
@@ -278,7 +279,7 @@ TEST_F(CommandLine, ThreadsDoNotChangeTheFile) {
             std::equal(one.layers[i].image.begin(), one.layers[i].image.end(), two.layers[i].image.begin()));
 }
 
-TEST_F(CommandLine, TimeEndsARender) {
+TEST_F(CommandLine, TimeLimitEndsARender) {
     const Outcome o =
         run(folder_, "render box.xml -m pt --size 64x64 --time 0.3 --clock cpu -o out.exr --stats s.json");
     ASSERT_EQ(o.exit_code, 0) << o.output;
@@ -287,7 +288,7 @@ TEST_F(CommandLine, TimeEndsARender) {
     EXPECT_GT(stats["spp"], 1);
 }
 
-TEST_F(CommandLine, InterruptSavesWhatThereIs) {
+TEST_F(CommandLine, InterruptSavesThePicture) {
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder_.c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
@@ -296,10 +297,11 @@ TEST_F(CommandLine, InterruptSavesWhatThereIs) {
               "out.exr", "--stats", "s.json", static_cast<char*>(nullptr));
         _exit(101);
     }
-    // A tenth of the passes is told of: there are as many as take some seconds on any machine.
+    // Progress is logged after a tenth of the passes. Their number is large enough for some seconds on any
+    // machine.
     EXPECT_TRUE(eventually([&] {
         return fs::exists(folder_ / "log.txt") && fs::file_size(folder_ / "log.txt") > 0;
-    })) << "it says nothing of its passes";
+    })) << "no progress is logged";
     kill(child, SIGINT);
     int status = 0;
     waitpid(child, &status, 0);
@@ -311,21 +313,21 @@ TEST_F(CommandLine, InterruptSavesWhatThereIs) {
     EXPECT_LT(stats["spp"], 3000);
 }
 
-TEST_F(CommandLine, WithoutADisplayThereIsAPicture) {
+TEST_F(CommandLine, ViewWithoutADisplayWritesAPicture) {
     const Outcome o = run(folder_, "view box.xml --size 48x32 --threads 2 --seconds 0.2");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     EXPECT_NE(o.output.find("no display"), std::string::npos) << o.output;
     EXPECT_GT(fs::file_size(folder_ / "contact-sheet.png"), 1000u);
 }
 
-TEST_F(CommandLine, WithoutADisplayNoSampleIsOpened) {
+TEST_F(CommandLine, InspectWithoutADisplayIsAnError) {
     const Outcome o = run(folder_, "view box.xml --size 48x32 --inspect 1,2,0 --seconds 0.2");
     EXPECT_EQ(o.exit_code, 2) << o.output;
     EXPECT_NE(o.output.find("no display to open --inspect 1,2,0"), std::string::npos) << o.output;
     EXPECT_FALSE(fs::exists(folder_ / "contact-sheet.png"));
 }
 
-TEST_F(CommandLine, InfoTellsWhatIsThere) {
+TEST_F(CommandLine, InfoDescribesTheScene) {
     write("odd.xml", "<scene version=\"3.0.0\">\n<bsdf type='velvet' id='a'/>\n<bsdf type='velvet' id='b'/>\n"
                      "<shape type='cube'><bsdf type='dielectric'/></shape></scene>");
     const Outcome o = run(folder_, "info odd.xml");
@@ -337,7 +339,8 @@ TEST_F(CommandLine, InfoTellsWhatIsThere) {
           "environment      none\n",
           "odd.xml:2:1: the bsdf 'velvet' is not known; diffuse magenta is used instead (also at 3:1)\n"})
         EXPECT_NE(o.output.find(word), std::string::npos) << word << "\n" << o.output;
-    EXPECT_EQ(run(folder_, "info box.xml").output.find("\x1b"), std::string::npos) << "a bar where no terminal is";
+    EXPECT_EQ(run(folder_, "info box.xml").output.find("\x1b"), std::string::npos)
+        << "a progress bar without a terminal";
 }
 
 TEST_F(CommandLine, CameraFileReplacesTheScenesCamera) {
@@ -363,7 +366,7 @@ TEST_F(CommandLine, CameraFileReplacesTheScenesCamera) {
     EXPECT_EQ(run(folder_, "view box.xml --camera near.json --size 24x16 --seconds 0.1").exit_code, 0);
 }
 
-// What each field may be is tested with the reader; here, that every command ends with its message.
+// The values of each field are tested with the reader. Here, every command ends with its message.
 TEST_F(CommandLine, BadCameraFilesGetAMessageAndExitCode2) {
     const std::string unit = "\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
     const std::vector<std::pair<std::string, std::string>> cases = {

@@ -24,7 +24,7 @@ protected:
         return folder_ / name;
     }
 
-    /// Runs the command; what it prints is in out_ and err_.
+    /// Runs the command and captures its output in out_ and err_.
     int run(const CompareOptions& options) {
         testing::internal::CaptureStdout();
         testing::internal::CaptureStderr();
@@ -60,7 +60,7 @@ TEST_F(Compare, CountsPixelsWithoutLight) {
     EXPECT_DOUBLE_EQ(nlohmann::json::parse(out_)["share_without_light"].get<double>(), 2.0 / 48);
 }
 
-TEST_F(Compare, AReferenceWithTwoHalvesIsEnough) {
+TEST_F(Compare, AReferenceWithHalvesGivesTheFloorFreeError) {
     const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(2))), reference = folder_ / "r.exr";
     const RgbImage low(8, 6, Rgb(1)), high(8, 6, Rgb(3));
     write_reference(reference, {mean_of(low, high), {low, high}, {1, 2}, ""});
@@ -70,7 +70,7 @@ TEST_F(Compare, AReferenceWithTwoHalvesIsEnough) {
     EXPECT_EQ(json["relmse"].get<double>(), 0);
 }
 
-TEST_F(Compare, LooksForAGridOfTiles) {
+TEST_F(Compare, MeasuresTheGridOfTiles) {
     RgbImage tiled(64, 48, Rgb(1));
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x)
@@ -81,7 +81,7 @@ TEST_F(Compare, LooksForAGridOfTiles) {
     EXPECT_GT(nlohmann::json::parse(out_)["tiles"]["edge_ratio"], 1000);
     ASSERT_EQ(run({image, reference, {}, {}, false, 4}), 0);
     EXPECT_NE(out_.find("tiles, in edges"), std::string::npos);
-    EXPECT_EQ(run({image, reference, {}, {}, false, 16}), 2) << "there are not enough of them";
+    EXPECT_EQ(run({image, reference, {}, {}, false, 16}), 2) << "too few tiles";
     ASSERT_EQ(run({image, reference, {}, {}, true}), 0);
     EXPECT_FALSE(nlohmann::json::parse(out_).contains("tiles"));
 }
@@ -92,12 +92,12 @@ TEST_F(Compare, TwoReferencesGiveTheFloorFreeError) {
     ASSERT_EQ(run({image, low, high, {}, true}), 0) << err_;
     const auto json = nlohmann::json::parse(out_);
     EXPECT_NEAR(json["relmse_floor_free"].get<double>(), -1 / 4.001, 1e-6);
-    EXPECT_EQ(json["relmse"].get<double>(), 0); // to the mean of both
+    EXPECT_EQ(json["relmse"].get<double>(), 0); // error to the mean of both references
     ASSERT_EQ(run({image, low, high, {}, false}), 0);
     EXPECT_NE(out_.find("floor-free"), std::string::npos);
 }
 
-TEST_F(Compare, TakesALayer) {
+TEST_F(Compare, ComparesALayer) {
     const fs::path image = write("i.exr", RgbImage(8, 6, Rgb(2)), "primal"),
                    reference = write("r.exr", RgbImage(8, 6));
     EXPECT_EQ(run({image, reference, {}, "primal", false}), 0);
@@ -106,7 +106,7 @@ TEST_F(Compare, TakesALayer) {
     EXPECT_EQ(run({image, reference, {}, "", false}), 2);
 }
 
-TEST_F(Compare, SizesThatDifferAreRefusedWithBothSizes) {
+TEST_F(Compare, RejectsDifferentSizesAndNamesBoth) {
     const fs::path image = write("i.exr", RgbImage(8, 6)), reference = write("r.exr", RgbImage(9, 6));
     EXPECT_EQ(run({image, reference, {}, {}, false}), 2);
     EXPECT_NE(err_.find("8x6"), std::string::npos) << err_;
@@ -114,7 +114,7 @@ TEST_F(Compare, SizesThatDifferAreRefusedWithBothSizes) {
     EXPECT_EQ(run({image, image, reference, {}, false}), 2);
 }
 
-TEST_F(Compare, MissingFilesAreRefused) {
+TEST_F(Compare, RejectsMissingFiles) {
     const fs::path image = write("i.exr", RgbImage(8, 6));
     EXPECT_EQ(run({image, folder_ / "none.exr", {}, {}, true}), 2);
     EXPECT_NE(err_.find("none.exr"), std::string::npos);

@@ -1,5 +1,5 @@
-// What the viewer sees of a folder in which workers are: jobs and curves as they come, and a clear message where
-// there is nothing to follow.
+// The viewer follows a folder of workers: it shows jobs and curves as they appear, and reports folders that it
+// cannot follow.
 #include "app/experiment/claim.h"
 #include "app/experiment/plan.h"
 #include "app/report/reports.h"
@@ -31,7 +31,7 @@ protected:
         std::ifstream in(folder() / name);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    /// A sweep of a reference and six jobs into "out", with these further words.
+    /// Runs a sweep of a reference and six jobs into "out", with these additional arguments.
     void sweep(const std::string& more) const {
         const Outcome o = run(folder(), "sweep '" + std::string(TESSERA_SOURCE_DIR) +
                                             "/assets/cornell-box.xml' --vary tile=2,4 -m pr,gpr --seeds 3 --spp 2 "
@@ -58,7 +58,7 @@ TEST_F(FollowedFolderTest, ShowsJobsAsTheyAreClaimedAndDone) {
     std::shared_ptr<const FollowedFolder> seen = reader();
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->command, "sweep");
-    ASSERT_EQ(seen->jobs.size(), 7u) << "the reference, and a job a seed and tile";
+    ASSERT_EQ(seen->jobs.size(), 7u) << "the reference, and one job per seed and tile";
     EXPECT_EQ(seen->jobs[0], (FollowedJob{"reference cornell-box-16x16-d8.exr", State::done}));
     EXPECT_EQ(seen->jobs[1], (FollowedJob{"cornell-box, seed 0, tile 2", State::waiting}));
     EXPECT_EQ(seen->jobs[2], (FollowedJob{"cornell-box, seed 0, tile 4", State::done}));
@@ -91,8 +91,8 @@ TEST_F(FollowedFolderTest, ShowsTheCurvesOfTheReport) {
     EXPECT_TRUE(seen->trouble.empty());
 }
 
-/// A list of more seeds: what the first has done is done, and another list takes its place.
-TEST_F(FollowedFolderTest, GoesOnWithAnotherListOfJobs) {
+/// A sweep with more seeds replaces the list of jobs, and keeps the finished ones.
+TEST_F(FollowedFolderTest, FollowsAnotherListOfJobs) {
     sweep("");
     const FolderReader reader = folder_reader(folder() / "out");
     EXPECT_EQ(reader()->jobs.size(), 7u);
@@ -101,7 +101,7 @@ TEST_F(FollowedFolderTest, GoesOnWithAnotherListOfJobs) {
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->jobs.size(), 9u);
     EXPECT_EQ(seen->count(State::done), 8u);
-    // One of fewer methods has files of its own, and finds all in those.
+    // A sweep with fewer methods has its own list, and its jobs are finished.
     sweep("-m gpr --list");
     EXPECT_FALSE(reader()) << "a list that is only printed changes nothing";
     sweep("-m gpr");
@@ -111,7 +111,7 @@ TEST_F(FollowedFolderTest, GoesOnWithAnotherListOfJobs) {
     EXPECT_EQ(to_svg(seen->charts.at(0)), text("out/sweep-cornell-box.svg"));
 }
 
-TEST_F(FollowedFolderTest, SaysWhatIsNoSuchFolder) {
+TEST_F(FollowedFolderTest, ReportsFoldersWithoutJobs) {
     folder_.write("file", "");
     fs::create_directories(folder() / "foreign/jobs");
     EXPECT_THAT(refusal(folder_reader(folder() / "file")), HasSubstr("file: is not a folder"));
@@ -122,7 +122,7 @@ TEST_F(FollowedFolderTest, SaysWhatIsNoSuchFolder) {
     EXPECT_THAT(refusal(folder_reader(folder() / "foreign")), HasSubstr("plan.json: is not a list of jobs"));
 }
 
-TEST_F(FollowedFolderTest, SaysWhichFileIsDamaged) {
+TEST_F(FollowedFolderTest, ReportsWhichFileIsDamaged) {
     sweep("");
     const JobPlan plan = read_plan(plan_file(folder() / "out"));
     const fs::path job = folder() / "out" / plan.jobs[1].file;
@@ -135,7 +135,7 @@ TEST_F(FollowedFolderTest, SaysWhichFileIsDamaged) {
     EXPECT_FALSE(seen->charts.empty());
 }
 
-TEST_F(FollowedFolderTest, GoesOnWhereWhatWasDamagedIsMended) {
+TEST_F(FollowedFolderTest, RecoversWhenADamagedFileIsRepaired) {
     sweep("");
     const fs::path plan_path = plan_file(folder() / "out");
     const fs::path job = folder() / "out" / read_plan(plan_path).jobs[1].file;
@@ -147,7 +147,7 @@ TEST_F(FollowedFolderTest, GoesOnWhereWhatWasDamagedIsMended) {
     EXPECT_EQ(seen->trouble.size(), 1u);
     std::ofstream(plan_path) << "{\"plan\":1,\n\"works\":[3],\"jobs\":[]}";
     EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs"));
-    EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs")) << "and again";
+    EXPECT_THAT(refusal(reader), HasSubstr("is not a list of jobs")) << "the error repeats";
     std::ofstream(plan_path) << plan;
     std::ofstream(job) << found;
     seen = reader();

@@ -1,4 +1,4 @@
-// The gallery knows every scene of the suite, with a picture, what fails there and the verdicts.
+// The gallery lists every scene of the suite, with a picture, its known failures and the verdicts.
 #include "app/commands/commands.h"
 #include "app/experiment/stability.h"
 
@@ -29,13 +29,13 @@ TEST(Gallery, HasAllScenesOfTheSuite) {
         const auto place = std::ranges::find(entries, title, [](const GalleryEntry& e) { return e.title; });
         return place == entries.end() ? GalleryEntry{} : *place;
     };
-    // What the last run of the suite has found, whatever that is.
+    // Verdicts of the last run of the suite, whatever they are.
     EXPECT_THAT(entry("glossy").help, testing::ContainsRegex("\nglossy-0.03:  pr [a-z]+ [0-9.]+  gpt-guided "));
     EXPECT_THAT(entry("normal-map").verdict, testing::ContainsRegex("^G-PR [a-z]+ [0-9.]+$"));
 }
 
-/// Whatever the suite has found: the verdict is that of the default, and of its values the worst.
-TEST(Gallery, SaysWhereTheDefaultIsWorse) {
+/// The verdict is that of the default method and reconstruction, for the worst variation of the scene.
+TEST(Gallery, MarksScenesWhereTheDefaultIsWorse) {
     const GalleryContents found = gallery(built_in_stability_scenes, "scene,method,recon,verdict,factor\n"
                                                                      "glossy-0.01,gpr,guided,worse than PT,1.25\n"
                                                                      "glossy-0.1,gpr,guided,ok,0.5\n"
@@ -54,7 +54,7 @@ TEST(Gallery, SaysWhereTheDefaultIsWorse) {
     }
 }
 
-TEST(Gallery, HasTheSceneWithinTheProgramWhereOthersAreNotFound) {
+TEST(Gallery, ListsTheBuiltInSceneIfOthersAreMissing) {
     const GalleryContents found =
         gallery([]() -> std::vector<std::filesystem::path> { throw std::runtime_error("no room in /tmp"); });
     ASSERT_EQ(found.entries.size(), 1u);

@@ -8,14 +8,14 @@ namespace tessera::test {
 
 namespace {
 
-TEST(Interrupt, OneAsksForAnEnd) {
+TEST(Interrupt, FirstSignalRequestsAnEnd) {
     const InterruptGuard guard;
     EXPECT_FALSE(interrupted());
     std::raise(SIGTERM);
     EXPECT_TRUE(interrupted());
 }
 
-TEST(Interrupt, ASecondOneEndsTheProcessWhicheverItIs) {
+TEST(Interrupt, SecondSignalKillsTheProcess) {
     for (int first : {SIGINT, SIGTERM})
         for (int second : {SIGINT, SIGTERM}) {
             const auto raise_both = [&] {

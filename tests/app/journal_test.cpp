@@ -1,4 +1,4 @@
-// The journal of experiments: what its files keep, and what is made of one that was cut off anywhere.
+// The journal of experiments: its files keep what is written, and truncated files keep their whole lines.
 #include "app/experiment/result.h"
 #include "tests/load/temporary_folder.h"
 
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 class JournalFile : public testing::Test {
 protected:
-    /// What is read of a file that holds this.
+    /// Returns the journal read from a file with this text.
     Journal journal_of(const std::string& text) {
         folder_.write("a.jsonl", text);
         Journal journal;
@@ -32,7 +32,7 @@ TEST_F(JournalFile, KeepsWhatIsWritten) {
         journal_of(Journal::line({{"seed", 1}, {"scene", "box"}}, {1.5, nullptr}) +
                    Journal::line({{"seed", 2}}, "two\nlines") + Journal::line({{"seed", 2}}, "again"));
     EXPECT_EQ(journal.find({{"scene", "box"}, {"seed", 1}}), json({1.5, nullptr}));
-    EXPECT_EQ(journal.find({{"seed", 2}}), "again") << "the last counts";
+    EXPECT_EQ(journal.find({{"seed", 2}}), "again") << "the last value applies";
     EXPECT_TRUE(journal.find({{"seed", 3}}).is_null());
     folder_.write("b.jsonl", Journal::line({{"seed", 3}}, 30) + Journal::line({{"seed", 2}}, 20));
     journal.read(folder_.path() / "b.jsonl");
@@ -40,13 +40,13 @@ TEST_F(JournalFile, KeepsWhatIsWritten) {
     EXPECT_EQ(journal.find({{"seed", 3}}), 30);
 }
 
-TEST_F(JournalFile, NamesNeedNotBeUtf8) {
+TEST_F(JournalFile, ReplacesInvalidUtf8) {
     const json key{{"scene", "sc\xe8ne"}};
     EXPECT_EQ(journal_of(Journal::line(key, "caf\xe9")).find(key), "caf\xef\xbf\xbd");
 }
 
-/// Cut off after any number of bytes, the whole lines before count.
-TEST_F(JournalFile, ATornLineDoesNotCount) {
+/// A file truncated after any number of bytes keeps its whole lines.
+TEST_F(JournalFile, IgnoresATruncatedLine) {
     const std::string first = Journal::line({{"seed", 1}}, 10), whole = first + Journal::line({{"seed", 2}}, 20);
     for (std::size_t length = 0; length <= whole.size(); ++length) {
         const Journal journal = journal_of(whole.substr(0, length));
@@ -55,11 +55,11 @@ TEST_F(JournalFile, ATornLineDoesNotCount) {
     }
 }
 
-TEST_F(JournalFile, LinesOfOthersDoNotCount) {
+TEST_F(JournalFile, IgnoresForeignLines) {
     EXPECT_EQ(journal_of("hello\n[]\n{\"key\":1}\n\n{\"key\":{\"seed\":1},\"value\":2}\n").find({{"seed", 1}}), 2);
 }
 
-TEST_F(JournalFile, ThatCannotBeReadIsSaid) {
+TEST_F(JournalFile, ThrowsIfItCannotBeRead) {
     EXPECT_THROW(Journal().read(folder_.path()), std::runtime_error);
     EXPECT_THROW(Journal().read(folder_.path() / "none.jsonl"), std::runtime_error);
 }

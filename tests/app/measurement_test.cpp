@@ -1,4 +1,4 @@
-// Measurements in the journal: they come back from their text.
+// Measurements in the journal keep their values as text.
 #include "app/experiment/measured_run.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ Measurement through_text(const Measurement& m) {
     return measurement_from_json(nlohmann::json::parse(to_json(m).dump()));
 }
 
-TEST(Measurement, ComesBackFromItsText) {
+TEST(Measurement, RoundTripsThroughText) {
     Measurement m;
     m.seed = 7;
     m.spp = 16;
@@ -30,7 +30,7 @@ TEST(Measurement, ComesBackFromItsText) {
     EXPECT_FALSE(through_text({}).artefacts);
 }
 
-TEST(Measurement, FiguresThatAreNotFiniteComeBackAsNoNumbers) {
+TEST(Measurement, NonFiniteValuesBecomeNaN) {
     Measurement m;
     const double infinite = std::numeric_limits<double>::infinity();
     m.artefacts = Artefacts{{infinite, 0}, 1, {infinite, 2}, {0, 0}, 0, {1, -infinite}};

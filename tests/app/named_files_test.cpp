@@ -1,4 +1,4 @@
-// Whatever goes wrong with a file, the message names it.
+// Error messages about files name the file.
 
 #include "app/cli/opened_scene.h"
 #include "app/experiment/result.h"
@@ -25,7 +25,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(NamedFiles, TwoScenesOfOneName) {
+TEST_F(NamedFiles, TwoScenesWithTheSameName) {
     for (const char* place : {"a", "b"}) {
         fs::create_directory(folder_.path() / place);
         folder_.write(std::string(place) + "/box.xml", "<scene version='3.0.0'><shape type='cube'/></scene>");
@@ -35,14 +35,14 @@ TEST_F(NamedFiles, TwoScenesOfOneName) {
     EXPECT_THAT(o.output, HasSubstr("a/box.xml and b/box.xml are both named \"box\""));
 }
 
-TEST_F(NamedFiles, ASmallPictureOfTiles) {
+TEST_F(NamedFiles, ImageTooSmallForATileSpectrum) {
     write_exr(folder_.path() / "small.exr", {{{"", RgbImage(16, 16)}}, {}});
     const Outcome o = run(folder_.path(), "compare small.exr small.exr --tile 8");
     EXPECT_EQ(o.exit_code, 2);
     EXPECT_THAT(o.output, HasSubstr("small.exr: a tile spectrum needs "));
 }
 
-TEST_F(NamedFiles, BuffersBeyondFloats) {
+TEST_F(NamedFiles, BuffersThatOverflowFloats) {
     folder_.write("p.pfm", pfm_bytes(RgbImage(16, 16, Rgb(3e38f))));
     folder_.write("d.pfm", pfm_bytes(RgbImage(16, 16, Rgb(-3e38f))));
     const Outcome o = run(folder_.path(), "reconstruct p.pfm d.pfm d.pfm --recon l2 -o out.exr");
@@ -50,18 +50,18 @@ TEST_F(NamedFiles, BuffersBeyondFloats) {
     EXPECT_THAT(o.output, HasSubstr("p.pfm: the values are too large"));
 }
 
-TEST_F(NamedFiles, AJournalThatCannotBeRead) {
+TEST_F(NamedFiles, UnreadableJournal) {
     const fs::path file = folder_.path() / "journal.jsonl";
     fs::create_directory(file);
     try {
         Journal().read(file);
-        FAIL() << "a folder is no journal";
+        FAIL() << "a folder was read as a journal";
     } catch (const std::exception& error) {
         EXPECT_THAT(error.what(), HasSubstr("journal.jsonl: this is a folder"));
     }
 }
 
-TEST_F(NamedFiles, ASceneWithoutMemoryForItsBvh) {
+TEST_F(NamedFiles, SceneWithoutMemoryForItsBvh) {
     if (!can_limit_memory)
         GTEST_SKIP() << "sanitizers take all address space";
     std::string ply =
@@ -78,7 +78,7 @@ TEST_F(NamedFiles, ASceneWithoutMemoryForItsBvh) {
     try {
         const MemoryLimit limit(100 << 20);
         open_scene({scene, {}}, pool);
-        FAIL() << "there is memory";
+        FAIL() << "the memory limit has no effect";
     } catch (const OutOfMemory& error) {
         EXPECT_THAT(error.what(), HasSubstr("many.xml: 1000000 triangles in a BVH need 130 MiB of memory"));
     }

@@ -1,5 +1,4 @@
-// Files of `tessera render` as other programs read them: the names of their channels, and a denoiser that takes
-// its input from them.
+// Files of `tessera render`, read as other programs read them: channel names, and the input of a denoiser.
 #include "recon/picture/oidn.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
@@ -28,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Contains;
 
-/// The channels of an EXR file, read by OpenEXR alone.
+/// Channels of an EXR file, read by OpenEXR without Tessera's code.
 struct Channels {
     std::size_t width = 0, height = 0;
     std::map<std::string, std::vector<float>> values;
@@ -39,7 +38,7 @@ struct Channels {
             names.insert(name);
         return names;
     }
-    /// Returns three channels pixel by pixel: "" and "RGB" for the plain picture.
+    /// Returns three channels, interleaved by pixel. The layer "" is the plain picture.
     std::vector<float> pixels(const std::string& layer, const std::string& channels = "RGB") const {
         std::vector<float> pixels(3 * width * height);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -73,7 +72,7 @@ Channels read_channels(const fs::path& file) {
     return channels;
 }
 
-/// An area light, which the camera does not see, above a cube.
+/// Scene with an area light above a cube, outside the camera's view.
 constexpr const char* hidden_lamp = R"(<scene version="3.0.0">
     <sensor type="perspective">
         <float name="fov" value="40"/>
@@ -140,7 +139,7 @@ TEST_F(OtherPrograms, FindFeaturesAndGradientsByTheirUsualNames) {
     }
 }
 
-/// Open Image Denoise, by the signatures in its header oidn.h and without Tessera's code.
+/// Calls Open Image Denoise by the signatures of its header oidn.h, without Tessera's code.
 class Denoiser {
 public:
     /// Loads the library that Tessera has found.
@@ -199,7 +198,7 @@ private:
     void* library_ = nullptr;
 };
 
-/// Expects the same pixels, but for rounding.
+/// Expects equal pixels except for rounding.
 void expect_close(const std::vector<float>& found, const std::vector<float>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i)

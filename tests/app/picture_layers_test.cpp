@@ -21,7 +21,7 @@ GradientImages grey_images() {
     return images;
 }
 
-TEST(PictureLayers, WithoutMemoryToReconstructWhatIsRenderedIsKept) {
+TEST(PictureLayers, KeepTheRenderIfMemoryForReconstructionIsMissing) {
     if (!test::can_limit_memory)
         GTEST_SKIP() << "sanitizers take all address space";
     ThreadPool pool(1);
@@ -31,7 +31,7 @@ TEST(PictureLayers, WithoutMemoryToReconstructWhatIsRenderedIsKept) {
         const test::MemoryLimit limit(8 << 20);
         EXPECT_THROW(reconstruct_layers(std::move(images), {{Norm::weighted}, {}, true}, pool, stats),
                      OutOfMemory);
-        ASSERT_EQ(images.primal.width(), width); // as they were
+        ASSERT_EQ(images.primal.width(), width); // the images are unchanged
         const ExrFile exr = unreconstructed_layers(std::move(images), true);
         ASSERT_NE(find_layer(exr, ""), nullptr);
         EXPECT_EQ((*find_layer(exr, ""))(3, 2), Rgb(0.75f)); // the raw primal
@@ -52,7 +52,7 @@ TEST(PictureLayers, HaveTheRawPrimalUnlessThePictureEqualsIt) {
     ThreadPool pool(1);
     std::vector<ReconstructionStats> stats;
     GradientImages images = grey_images();
-    images.primal(3, 2) = Rgb(7); // an outlier, which L2 spreads
+    images.primal(3, 2) = Rgb(7); // an outlier, which L2 distributes
     const ExrFile l2 = reconstruct_layers(GradientImages(images), {{Norm::l2}}, pool, stats);
     ASSERT_EQ(l2.layers.size(), 2u);
     EXPECT_EQ(l2.layers[1].name, primal_layer);
@@ -69,7 +69,7 @@ TEST(PictureLayers, HaveFeaturesUnderTheNamesOfOtherPrograms) {
     std::vector<ReconstructionStats> stats;
     GradientImages images = grey_images();
     images.features = {RgbImage(width, height, Rgb(0.5f)), Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)),
-                     Image<float>(width, height, 0.25f), Image<float>(width, height, 0.75f)};
+                       Image<float>(width, height, 0.25f), Image<float>(width, height, 0.75f)};
     images.features.nearness(3, 2) = 0; // no surface
     const ExrFile exr = reconstruct_layers(std::move(images), {{Norm::none}, {}, true}, pool, stats);
     const auto channels_of = [&](const char* name) {
@@ -97,7 +97,7 @@ TEST(PictureLayers, RecordTheRedistributedFraction) {
     EXPECT_FALSE(exr.attributes.contains(redistributed_attribute));
 }
 
-TEST(PictureLayers, TellWhatTheyTakeTogether) {
+TEST(PictureLayers, ReportTheirMemory) {
     const glm::ivec2 size(width, height);
     const ReconstructionLayers one{{Norm::l2}}, two{{Norm::l2, Norm::none}};
     RenderSettings gpr, pt;

@@ -1,4 +1,4 @@
-// What is on the disk when: that what is said to be finished has reached it, and that the disk's word counts.
+// Data reach the disk before files that refer to them, and errors of the disk are reported.
 #include "app/experiment/experiment_jobs.h"
 #include "render/io/files.h"
 #include "tests/load/temporary_folder.h"
@@ -17,13 +17,13 @@
 
 namespace {
 
-std::mutex synced_mutex;         // the program's other tests have threads that write files
-std::vector<std::string> synced; // names of files and folders, without their folders
+std::mutex synced_mutex;         // threads of other tests in this program write files
+std::vector<std::string> synced; // names of synchronised files and folders, without parent folders
 bool disk_is_broken = false;
 
 } // namespace
 
-/// Stands in this program for the system's.
+/// Replaces the system's fsync() in this program, and records the names.
 extern "C" int fsync(int file) {
     {
         const std::lock_guard lock(synced_mutex);
@@ -42,14 +42,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The place in the list, from some place on, of the first event that begins so.
+/// Returns the first index, not before `from`, of a name with this beginning, or the size of the list.
 std::size_t find(const std::string& beginning, std::size_t from) {
     while (from < synced.size() && synced[from].rfind(beginning, 0) != 0)
         ++from;
     return from;
 }
 
-TEST(PowerCut, NoJobIsDoneWhosePictureIsNotThere) {
+TEST(PowerCut, PicturesReachTheDiskBeforeTheirJobs) {
     const TemporaryFolder folder;
     ExperimentOptions options;
     options.scenes = {fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml"};
@@ -66,12 +66,12 @@ TEST(PowerCut, NoJobIsDoneWhosePictureIsNotThere) {
     const std::size_t picture = find("cornell-box-gpr-weighted.exr.", 0), name = find("images", picture),
                       results = find("cornell-box-", name + 1), folder_of_jobs = find("jobs", results);
     EXPECT_LT(picture, name);
-    EXPECT_LT(name, results) << "the picture, its name, and only then what refers to it";
+    EXPECT_LT(name, results) << "the picture, its folder, then the results that refer to it";
     EXPECT_LT(results, folder_of_jobs);
     EXPECT_LT(folder_of_jobs, synced.size());
 }
 
-TEST(PowerCut, WhatDoesNotReachTheDiskIsNotWritten) {
+TEST(PowerCut, KeepsTheOldFileIfTheDiskFails) {
     const TemporaryFolder folder;
     folder.write("a.txt", "before");
     disk_is_broken = true;

@@ -17,7 +17,7 @@ struct Outcome {
     std::string output;
 };
 
-/// Runs the program in `folder` with both output streams in one.
+/// Runs the program in `folder`. The output combines stdout and stderr.
 inline Outcome run(const std::filesystem::path& folder, const std::string& arguments) {
     const std::string command = "unset DISPLAY WAYLAND_DISPLAY; cd '" + folder.string() + "' && '" +
                                 std::string(TESSERA_BINARY) + "' " + arguments + " 2>&1";
@@ -31,7 +31,7 @@ inline Outcome run(const std::filesystem::path& folder, const std::string& argum
     return outcome;
 }
 
-/// Runs the program likewise, silently: the most memory that it had at a time, bytes; 0: it failed.
+/// Runs the program in `folder` without output. Returns its peak resident memory in bytes, or 0 if it fails.
 inline std::size_t peak_memory(const std::filesystem::path& folder, const std::string& arguments) {
     const std::string command = "cd '" + folder.string() + "' && exec '" + std::string(TESSERA_BINARY) + "' " +
                                 arguments + " >/dev/null 2>&1";

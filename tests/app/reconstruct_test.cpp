@@ -1,4 +1,4 @@
-// `tessera reconstruct`: the solver alone, on saved buffers of this program and of others.
+// `tessera reconstruct`: reconstructs saved buffers of this program and of others.
 #include "render/io/exr.h"
 #include "tests/app/program.h"
 #include "tests/load/pfm_bytes.h"
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The image's columns and rows from the first up to that size.
+/// Returns the first `width` columns and `height` rows of the image.
 RgbImage cut(const RgbImage& image, int width, int height) {
     RgbImage result(width, height);
     for (int y = 0; y < height; ++y)
@@ -45,7 +45,7 @@ protected:
         return run(folder.path(), "reconstruct " + arguments);
     }
 
-    /// The plain RGB of out.exr, as these arguments make it.
+    /// Runs the command and returns the plain RGB of out.exr.
     RgbImage result_of(const std::string& arguments) const {
         fs::remove(file("out.exr"));
         const Outcome o = reconstruct(arguments + " -o out.exr");
@@ -55,12 +55,12 @@ protected:
 
     static constexpr int width = 13, height = 9;
     TemporaryFolder folder;
-    // With exact gradients any norm and alpha give the image back.
+    // With exact gradients, any norm and alpha reproduce the image.
     const RgbImage image = random_image(width, height, 1, 3);
     const RgbImage dx = x_differences(image), dy = y_differences(image);
 };
 
-TEST_F(Reconstruct, OfSavedBuffersEqualsTheRendersOwn) {
+TEST_F(Reconstruct, MatchesTheRenderFromItsBuffers) {
     fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", file("box.xml"));
     const Outcome render = run(folder.path(), "render box.xml -m gpr --size 40x30 --spp 2 --recon l2,l1 "
                                               "--buffers -o buffers.exr");
@@ -109,8 +109,8 @@ TEST_F(Reconstruct, OfSavedBuffersEqualsTheRendersOwn) {
     EXPECT_TRUE(stats["seconds"]["load"]["cpu"].is_number());
 }
 
-/// Every reconstruction of the file has the bits of the render's own.
-TEST_F(Reconstruct, OfBuffersHasTheSameBits) {
+/// Each reconstruction from the file has the same bits as the render's.
+TEST_F(Reconstruct, HasTheSameBitsAsTheRender) {
     fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml", file("box.xml"));
     const std::string norms = "guided,weighted,l2,smoothed,none";
     for (const char* basis : {"none", "albedo"}) {
@@ -129,8 +129,8 @@ TEST_F(Reconstruct, OfBuffersHasTheSameBits) {
     }
 }
 
-TEST_F(Reconstruct, ThreeOrFourFilesOfAnyProgram) {
-    // A primal with a mistake that the gradients do not have.
+TEST_F(Reconstruct, AcceptsThreeOrFourFilesOfAnyProgram) {
+    // The primal has an error that the gradients do not have.
     RgbImage primal = image;
     primal(4, 5) += Rgb(1000);
     write("p.pfm", primal);
@@ -138,7 +138,7 @@ TEST_F(Reconstruct, ThreeOrFourFilesOfAnyProgram) {
     write_exr(file("dy.exr"), {{{"", dy}}, {}});
     write("direct.pfm", RgbImage(width, height, Rgb(0, 0, 50)));
     const RgbImage three = result_of("p.pfm dx.pfm dy.exr");
-    EXPECT_LT(std::abs(three(4, 5).r - image(4, 5).r), 100); // 1000 in the primal
+    EXPECT_LT(std::abs(three(4, 5).r - image(4, 5).r), 100); // the error is 1000 in the primal
     EXPECT_EQ(result_of("p.pfm dx.pfm dy.exr --recon none")(4, 5), primal(4, 5));
     const RgbImage four = result_of("p.pfm dx.pfm dy.exr direct.pfm");
     for (std::size_t i = 0; i < four.size(); ++i)
@@ -147,18 +147,18 @@ TEST_F(Reconstruct, ThreeOrFourFilesOfAnyProgram) {
     EXPECT_TRUE(same_pixels(named, four));
 }
 
-TEST_F(Reconstruct, ExactGradientsGiveTheImageBack) {
+TEST_F(Reconstruct, ExactGradientsReproduceTheImage) {
     write("p.pfm", image);
     write("dx.pfm", dx);
     write("dy.pfm", dy);
     for (const char* arguments : {"", " --recon l1", " --alpha 0.01", " --threads 2"})
         EXPECT_LT(relative_difference(result_of(std::string("p.pfm dx.pfm dy.pfm") + arguments), image), 1e-5)
             << arguments;
-    // Differences that mean something else do not.
+    // Swapped gradients do not reproduce the image.
     EXPECT_GT(relative_difference(result_of("p.pfm dy.pfm dx.pfm"), image), 1e-2);
 }
 
-// The last column of dx and the last row of dy mean nothing: they may be missing, or hold anything.
+// The last column of dx and the last row of dy have no meaning. They may be missing, or hold any value.
 TEST_F(Reconstruct, LastColumnAndRowMayBeMissing) {
     write("p.pfm", image);
     write("narrow.pfm", cut(dx, width - 1, height));
@@ -175,7 +175,7 @@ TEST_F(Reconstruct, LastColumnAndRowMayBeMissing) {
         EXPECT_LT(relative_difference(result_of(arguments), image), 1e-5) << arguments;
 }
 
-TEST_F(Reconstruct, RepairsWhatIsNotFinite) {
+TEST_F(Reconstruct, RepairsNonFinitePixels) {
     RgbImage holes = image;
     holes(3, 2) = Rgb(1, NAN, 1);
     holes(12, 8) = Rgb(-INFINITY, 0, 0);
@@ -194,7 +194,7 @@ TEST_F(Reconstruct, RepairsWhatIsNotFinite) {
     EXPECT_EQ(find_layer(out, "direct"), nullptr);
 }
 
-TEST_F(Reconstruct, OfLayersAddsDirectLightAndPassesOverThePlainPicture) {
+TEST_F(Reconstruct, AddsDirectLightAndIgnoresThePlainPicture) {
     const RgbImage direct(width, height, Rgb(50, 0, 7)), other(width, height, Rgb(1e6f));
     write_exr(file("b.exr"), {{{"", other},
                                {"primal", other},
@@ -300,7 +300,7 @@ TEST_F(Reconstruct, BadInputGetsAMessageAndExitCode2) {
         EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
 }
 
-TEST_F(Reconstruct, HelpSaysWhatTheGradientsAre) {
+TEST_F(Reconstruct, HelpDefinesTheGradients) {
     const Outcome o = reconstruct("--help");
     EXPECT_EQ(o.exit_code, 0);
     for (const char* expected : {"dx(x,y) = I(x+1,y) - I(x,y)", "dy(x,y) = I(x,y+1) - I(x,y)", "downward"})

@@ -1,4 +1,4 @@
-// `tessera reference`: the file, its error, and that neither a kill nor Ctrl-C changes a bit of it.
+// `tessera reference`: the file and its error. Neither a kill nor Ctrl-C changes a bit of the file.
 #include "render/io/exr.h"
 #include "render/run/reference_image.h"
 #include "tests/app/program.h"
@@ -33,7 +33,7 @@ protected:
     Outcome reference(const std::string& arguments) const {
         return run(folder(), "reference " + box + " --size 24x16 --max-depth 4 --threads 1 " + arguments);
     }
-    /// Starts a long reference with a checkpoint after every pass, waits for the first one, and sends the signal.
+    /// Starts a long reference, waits for a checkpoint, sends the signal and returns the exit status.
     int end_early(int signal) const {
         const pid_t child = fork();
         if (child == 0) {
@@ -45,13 +45,14 @@ protected:
             _exit(101);
         }
         EXPECT_TRUE(eventually([&] { return fs::exists(checkpoint_); }));
-        std::this_thread::sleep_for(std::chrono::milliseconds(200)); // for more than a pass or two
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(200)); // so that some passes follow the first checkpoint
         kill(child, signal);
         int status = 0;
         waitpid(child, &status, 0);
         return status;
     }
-    /// The samples that the checkpoint has, from what the program says of it.
+    /// Returns the samples per pixel of the checkpoint, from the program's message.
     int spp_of_checkpoint() const {
         const std::string text = reference("--spp 2 -o a.exr").output, words = "checkpoint has ";
         return std::stoi(text.substr(text.find(words) + words.size()));
@@ -66,15 +67,14 @@ protected:
     fs::path checkpoint_ = folder_.path() / "a.exr.checkpoint";
 };
 
-TEST_F(ReferenceCommand, IsTwoHalvesAndTheirMean) {
+TEST_F(ReferenceCommand, HasTwoHalvesAndTheirMean) {
     const Outcome o = reference("-m pt --spp 7 --seed 5 -o a.exr");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     const ReferenceImage r = read_reference(folder() / "a.exr");
     EXPECT_EQ(r.seeds, (std::array<std::uint64_t, 2>{5, 6}));
-    EXPECT_EQ(nlohmann::json::parse(r.settings)["spp"], 8) << "four in each half";
+    EXPECT_EQ(nlohmann::json::parse(r.settings)["spp"], 8) << "four samples per half";
     ASSERT_EQ(run(folder(),
-                  "render " + box +
-                      " -m pt --size 24x16 --max-depth 4 --threads 1 --spp 4 --seed 6 -o half.exr")
+                  "render " + box + " -m pt --size 24x16 --max-depth 4 --threads 1 --spp 4 --seed 6 -o half.exr")
                   .exit_code,
               0);
     const ExrFile half = read_exr(folder() / "half.exr");
@@ -90,14 +90,14 @@ TEST_F(ReferenceCommand, IsTwoHalvesAndTheirMean) {
     EXPECT_FALSE(fs::exists(checkpoint_));
 }
 
-TEST_F(ReferenceCommand, SaysHowItWasMade) {
+TEST_F(ReferenceCommand, StatesHowItWasMade) {
     EXPECT_THAT(reference("--spp 2 -o a.exr").output, HasSubstr("a.exr: by gpr, reconstructed by l2;"));
     EXPECT_THAT(reference("-m gpt --recon none --spp 2 -o b.exr").output,
                 HasSubstr("b.exr: by gpt, reconstructed by none;"));
     EXPECT_EQ(origin_of(read_reference(folder() / "b.exr")), (ReferenceOrigin{Method::gpt, "none"}));
 }
 
-TEST_F(ReferenceCommand, RemembersItsSceneWhereverThatLies) {
+TEST_F(ReferenceCommand, IdentifiesItsSceneByContents) {
     const auto scene = [&](const std::string& arguments) {
         const Outcome o = run(folder(), "reference " + arguments + " --size 24x16 --max-depth 3 --spp 2 -o a.exr");
         EXPECT_EQ(o.exit_code, 0) << o.output;
@@ -116,7 +116,7 @@ TEST_F(ReferenceCommand, RemembersItsSceneWhereverThatLies) {
     EXPECT_NE(other, known);
 }
 
-/// The error known from the halves is the one to a far better reference.
+/// The error estimated from the halves matches the error to a far better reference.
 TEST_F(ReferenceCommand, KnowsItsError) {
     ASSERT_EQ(reference("-m pt --spp 32 -o a.exr").exit_code, 0);
     ASSERT_EQ(reference("-m gpr --spp 1024 --seed 1 -o b.exr").exit_code, 0);
@@ -127,7 +127,7 @@ TEST_F(ReferenceCommand, KnowsItsError) {
     EXPECT_LT(known.standard_error, 0.5 * known.relative_mse);
 }
 
-TEST_F(ReferenceCommand, GoesOnAfterAKillToTheSameBits) {
+TEST_F(ReferenceCommand, ResumesAfterAKillWithTheSameBits) {
     EXPECT_TRUE(WIFSIGNALED(end_early(SIGKILL)));
     ASSERT_TRUE(fs::exists(checkpoint_));
     EXPECT_FALSE(fs::exists(folder() / "a.exr"));
@@ -140,15 +140,15 @@ TEST_F(ReferenceCommand, GoesOnAfterAKillToTheSameBits) {
     EXPECT_EQ(bytes("a.exr"), bytes("whole.exr"));
 }
 
-TEST_F(ReferenceCommand, GoesOnAfterCtrlC) {
+TEST_F(ReferenceCommand, CanResumeAfterCtrlC) {
     const int status = end_early(SIGINT);
     ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 1) << "there is no reference yet";
+    EXPECT_EQ(WEXITSTATUS(status), 1) << "the reference is incomplete";
     EXPECT_THAT(bytes("log.txt"), HasSubstr("a.exr: not complete; run the same command again"));
     EXPECT_TRUE(fs::exists(checkpoint_));
 }
 
-TEST_F(ReferenceCommand, RefusesTheCheckpointOfAnother) {
+TEST_F(ReferenceCommand, RejectsTheCheckpointOfAnotherReference) {
     end_early(SIGKILL);
     const std::string checkpoint = bytes("a.exr.checkpoint");
     const std::vector<std::pair<std::string, std::string>> cases = {
@@ -171,10 +171,10 @@ TEST_F(ReferenceCommand, RefusesTheCheckpointOfAnother) {
     EXPECT_THAT(reference("--spp 100000 -o a.exr").output, HasSubstr("a.exr.checkpoint: is not a checkpoint"));
 }
 
-/// Shares are added one after the other: what that takes does not grow with how many there are.
-TEST_F(ReferenceCommand, MergesAnyNumberOfSharesInTheMemoryForTwo) {
+/// Shards are merged one by one, so the memory does not depend on their number.
+TEST_F(ReferenceCommand, MergesAnyNumberOfShardsInTheMemoryForTwo) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "sanitizers keep what was given back";
+    GTEST_SKIP() << "sanitizers keep freed memory";
 #endif
     const auto peak_of = [&](int count) {
         std::string files;
@@ -188,16 +188,16 @@ TEST_F(ReferenceCommand, MergesAnyNumberOfSharesInTheMemoryForTwo) {
         return peak_memory(folder(), "merge " + files + "-o ref.exr");
     };
     const std::size_t of_two = peak_of(2), of_twelve = peak_of(12);
-    const std::size_t share = fs::file_size(folder() / "1-of-12.share");
-    ASSERT_GT(of_two, 2 * share); // so it would be seen if they were all held
-    EXPECT_LT(of_twelve, of_two + share);
+    const std::size_t shard_bytes = fs::file_size(folder() / "1-of-12.share");
+    ASSERT_GT(of_two, 2 * shard_bytes); // large enough to show if all shards were in memory
+    EXPECT_LT(of_twelve, of_two + shard_bytes);
 }
 
 TEST_F(ReferenceCommand, BadInputGetsAMessage) {
     EXPECT_THAT(reference("-o a.png").output, HasSubstr("a.png: the name must end in .exr"));
     EXPECT_THAT(reference("-o none/a.exr").output, HasSubstr("none/a.exr: cannot be written"));
     EXPECT_EQ(reference("--recon l3 -o a.exr").exit_code, 2);
-    EXPECT_EQ(reference("--recon l2,none -o a.exr").exit_code, 2); // one reconstruction
+    EXPECT_EQ(reference("--recon l2,none -o a.exr").exit_code, 2); // a reference has one reconstruction
     EXPECT_EQ(reference("--spp 1 -o a.exr").exit_code, 2);
 }
 

@@ -1,4 +1,4 @@
-// What the program tells of samples that were not finite, and that the viewer opens just those.
+// The program reports invalid samples with a command, and the viewer opens exactly these samples.
 #include "app/cli/render_stats.h"
 #include "render/scene/scene.h"
 #include "tests/app/program.h"
@@ -31,21 +31,22 @@ std::string command(const SceneSource& source, const RenderSettings& settings) {
     return inspect_command(source, Render(scene, scene->camera(), size, settings), sample);
 }
 
-RenderSettings usual() {
+RenderSettings default_settings() {
     RenderSettings settings;
-    settings.max_depth = Room().build()->max_depth(); // as it is where none is given
+    settings.max_depth = Room().build()->max_depth(); // the default depth
     settings.max_depth = std::min(settings.max_depth, most_edges);
     return settings;
 }
 
-TEST(InspectCommand, HasWhatIsNotSoByItself) {
-    EXPECT_EQ(command({"box.xml", {}, {}}, usual()), "tessera view box.xml --size 24x16 --inspect 7,2,5");
-    RenderSettings settings = usual();
+TEST(InspectCommand, HasTheSettingsThatDifferFromDefaults) {
+    EXPECT_EQ(command({"box.xml", {}, {}}, default_settings()),
+              "tessera view box.xml --size 24x16 --inspect 7,2,5");
+    RenderSettings settings = default_settings();
     settings.method = Method::pr;
     settings.tile = 4;
     settings.adapt_tile = false;
     settings.shift = ShiftKind::reconnection;
-    settings.rr_delta = 1.0f / 3; // every digit counts
+    settings.rr_delta = 1.0f / 3; // needs all digits
     settings.max_depth = 3;
     settings.seed = 12345678901234567890u;
     EXPECT_EQ(command({"box.xml", {}, {}}, settings),
@@ -53,22 +54,22 @@ TEST(InspectCommand, HasWhatIsNotSoByItself) {
               "reconnection --max-depth 3 --seed 12345678901234567890 --inspect 7,2,5");
 }
 
-TEST(InspectCommand, IsForAShell) {
-    EXPECT_EQ(command({"my scenes/it's.xml", {{"unit", "1 m"}, {"n", "2"}}, "near by.json"}, usual()),
+TEST(InspectCommand, IsQuotedForAShell) {
+    EXPECT_EQ(command({"my scenes/it's.xml", {{"unit", "1 m"}, {"n", "2"}}, "near by.json"}, default_settings()),
               "tessera view 'my scenes/it'\\''s.xml' -D n=2 -D 'unit=1 m' --camera 'near by.json' --size 24x16 "
               "--inspect 7,2,5");
 }
 
-TEST(InspectCommand, IsNoneForPicturesThatTheViewerHasNot) {
+TEST(InspectCommand, IsEmptyForPicturesTooLargeForTheViewer) {
     const auto scene = Room().build();
-    const Render render(scene, scene->camera(), {9000, 1}, usual());
+    const Render render(scene, scene->camera(), {9000, 1}, default_settings());
     EXPECT_EQ(inspect_command({"box.xml", {}, {}}, render, sample), "");
 }
 
-/// The Cornell box with a light beyond what floats hold.
-class RefusedSamples : public testing::Test {
+/// Writes the Cornell box with a light that overflows floats.
+class InvalidSampleReports : public testing::Test {
 protected:
-    RefusedSamples() {
+    InvalidSampleReports() {
         std::ifstream in(fs::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml");
         std::string text{std::istreambuf_iterator<char>(in), {}};
         text.insert(text.rfind("</scene>"),
@@ -88,7 +89,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(RefusedSamples, OfARenderOpenInTheViewer) {
+TEST_F(InvalidSampleReports, OfARenderOpenTheSampleInTheViewer) {
     const Outcome o =
         tessera("render" + std::string(options) + "--seed 9 --spp 3 --recon none -o out.exr --stats out.json");
     ASSERT_EQ(o.exit_code, 0) << o.output;
@@ -109,16 +110,16 @@ TEST_F(RefusedSamples, OfARenderOpenInTheViewer) {
     const Outcome seen =
         tessera(inspect.substr(inspect.find("view")) + " --spp 1 --screenshot shot.png --log-actions --threads 1");
     if (seen.output.find("There is no display") != std::string::npos)
-        GTEST_SKIP() << "nothing to draw on";
+        GTEST_SKIP() << "there is no display";
     EXPECT_EQ(seen.exit_code, 0) << seen.output;
     EXPECT_THAT(seen.output, HasSubstr("inspection gpr pixel " + std::to_string(int(last.at("x"))) + " " +
                                        std::to_string(int(last.at("y"))) + " pass " +
                                        std::to_string(int(last.at("pass"))) + " refused\n"));
 }
 
-TEST_F(RefusedSamples, OfReferencesAndBenchmarksAreToldLikewise) {
+TEST_F(InvalidSampleReports, CoverReferencesAndBenchmarks) {
     const Outcome reference = tessera("reference" + std::string(options) + "--spp 2 -o ref.exr");
-    for (const char* seed : {"1001", "1002"}) // of each half
+    for (const char* seed : {"1001", "1002"}) // seeds of both halves
         EXPECT_THAT(reference.output, HasSubstr("--tile 5 --max-depth 4 --path-guiding off --seed " +
                                                 std::string(seed) + " --inspect "));
     const Outcome bench =
@@ -128,7 +129,7 @@ TEST_F(RefusedSamples, OfReferencesAndBenchmarksAreToldLikewise) {
                 HasSubstr("tessera view 'too bright.xml' -m pt --size 24x16 --max-depth 4 --inspect "));
 }
 
-TEST_F(RefusedSamples, WithoutAnyNothingIsSaid) {
+TEST_F(InvalidSampleReports, AreAbsentWithoutInvalidSamples) {
     const Outcome o = tessera("render 'too bright.xml' -D light=1 --size 8x8 --spp 1 -o out.exr --stats s.json");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     EXPECT_THAT(o.output, Not(HasSubstr("--inspect")));
@@ -136,7 +137,7 @@ TEST_F(RefusedSamples, WithoutAnyNothingIsSaid) {
               nlohmann::json::array());
 }
 
-TEST_F(RefusedSamples, OptionsOfTheViewerAreChecked) {
+TEST_F(InvalidSampleReports, ViewerOptionsAreChecked) {
     const std::pair<const char*, const char*> cases[] = {
         {"--inspect 7,2", "--inspect 7,2: must be X,Y,PASS"},
         {"--inspect 7,2,-1", "must be X,Y,PASS"},

@@ -40,7 +40,7 @@ struct SavedPictureTest : testing::Test {
         std::filesystem::remove(file);
         return exr;
     }
-    /// Gives the snapshot a reconstruction that no solver would come to.
+    /// Gives the snapshot a reconstruction that no solver would produce.
     void reconstruct(int spp) {
         snapshot->reconstruction = std::make_shared<Reconstruction>(Reconstruction{marked, 0.25, 42, 1.5});
         snapshot->reconstruction_spp = spp;
@@ -53,7 +53,7 @@ struct SavedPictureTest : testing::Test {
     const RgbImage marked{16, 12, Rgb(0.125f, 0.25f, 3)};
 };
 
-TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
+TEST_F(SavedPictureTest, HeaderStatesHowItWasMade) {
     snapshot->seconds = 3.5;
     snapshot->cpu_seconds = 9.25;
     snapshot->counters.camera_paths = 1344;
@@ -72,11 +72,11 @@ TEST_F(SavedPictureTest, ItsHeaderTellsHowItWasMade) {
     EXPECT_EQ(stats.at("camera_paths"), 1344);
     EXPECT_EQ(exr.attributes.count("tessera:camera"), 1u);
     EXPECT_NE(find_layer(exr, "dx"), nullptr);
-    EXPECT_EQ(find_layer(exr, "first_hit_albedo"), nullptr); // there is no scene
+    EXPECT_EQ(find_layer(exr, "first_hit_albedo"), nullptr); // without a scene
     EXPECT_EQ(find_layer(exr, "error_relMSE"), nullptr);
 }
 
-TEST_F(SavedPictureTest, TheReconstructionIsTheOneOnShow) {
+TEST_F(SavedPictureTest, SavesTheDisplayedReconstruction) {
     reconstruct(7);
     const ExrFile exr = saved({snapshot, settings, {}, nullptr, nullptr});
     EXPECT_EQ((*find_layer(exr, ""))(3, 4), marked(3, 4));
@@ -88,25 +88,25 @@ TEST_F(SavedPictureTest, TheReconstructionIsTheOneOnShow) {
     EXPECT_NE(find_layer(exr, "primal"), nullptr);
 }
 
-/// The session shows that of guided then.
-TEST_F(SavedPictureTest, WithoutTheDenoiserItIsThatOfGuided) {
+/// Without the denoiser, the session shows the guided reconstruction.
+TEST_F(SavedPictureTest, SavesGuidedWithoutTheDenoiser) {
     if (oidn_problem().empty())
-        GTEST_SKIP() << "the denoiser is here";
+        GTEST_SKIP() << "the denoiser is installed";
     reconstruct(7);
     settings.norm = Norm::oidn;
     EXPECT_EQ(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4), marked(3, 4));
 }
 
-TEST_F(SavedPictureTest, TheReconstructionIsMadeWhereTheOneOnShowIsAnother) {
-    reconstruct(6); // of an earlier pass
+TEST_F(SavedPictureTest, ReconstructsIfTheDisplayedPictureIsOutdated) {
+    reconstruct(6); // a reconstruction of an earlier pass
     EXPECT_NEAR(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4).b, 0.5f, 1e-3f);
     reconstruct(7);
-    settings.alpha = 0.1f; // since
+    settings.alpha = 0.1f; // changed after the reconstruction
     EXPECT_NEAR(plain({snapshot, settings, {}, nullptr, nullptr})(3, 4).b, 0.5f, 1e-3f);
 }
 
-/// Not those of the viewer's other threads, which render on meanwhile.
-TEST_F(SavedPictureTest, TheCpuSecondsAreThoseOfTheReconstruction) {
+/// The CPU time excludes the viewer's other threads, which keep rendering.
+TEST_F(SavedPictureTest, CpuSecondsAreThoseOfTheReconstruction) {
     auto images = std::make_shared<GradientImages>(*snapshot->images);
     images->primal = RgbImage(320, 240, Rgb(0.5f));
     images->dx = images->dy = RgbImage(320, 240, Rgb(0));
@@ -126,14 +126,14 @@ TEST_F(SavedPictureTest, TheCpuSecondsAreThoseOfTheReconstruction) {
         std::this_thread::yield();
     const double before = thread_cpu_seconds();
     const ExrFile exr = saved({snapshot, settings, {}, nullptr, nullptr});
-    const double all_of_it = thread_cpu_seconds() - before;
+    const double thread_seconds = thread_cpu_seconds() - before;
     is_saved = true;
     const auto stats = json::parse(exr.attributes.at("tessera:stats")).at("seconds").at("reconstruct").at(0);
     EXPECT_GT(stats.at("cpu"), 0);
-    EXPECT_LE(stats.at("cpu"), all_of_it);
+    EXPECT_LE(stats.at("cpu"), thread_seconds);
 }
 
-TEST_F(SavedPictureTest, HasWhatTheCameraSeesFirst) {
+TEST_F(SavedPictureTest, HasFirstHitLayers) {
     test::SceneBuilder room;
     const int red = room.diffuse({0.6f, 0.1f, 0.1f});
     room.room({red, red, red, red, red});
@@ -148,7 +148,7 @@ TEST_F(SavedPictureTest, HasWhatTheCameraSeesFirst) {
     EXPECT_GT(hits.depth(8, 6), 0);
 }
 
-TEST_F(SavedPictureTest, HasTheErrorsOfThePictureSaved) {
+TEST_F(SavedPictureTest, HasTheErrorsOfTheSavedPicture) {
     reconstruct(7);
     auto reference = std::make_shared<Reference>();
     reference->name = "truth.exr";

@@ -9,18 +9,18 @@
 namespace tessera {
 namespace {
 
-TEST(SceneLoader, GivesWayToWhatDraws) {
-    const int own = getpriority(PRIO_PROCESS, 0);
-    int there = own;
+TEST(SceneLoader, LoadsWithLowerPriority) {
+    const int own_priority = getpriority(PRIO_PROCESS, 0);
+    int loader_priority = own_priority;
     std::shared_ptr<const Scene> scene;
     std::thread([&] {
         SceneNotes notes;
         LoadProgress progress;
-        scene = loader_of({}, 1)(notes, progress); // the scene that is built in
-        there = getpriority(PRIO_PROCESS, 0);
+        scene = loader_of({}, 1)(notes, progress); // the built-in scene
+        loader_priority = getpriority(PRIO_PROCESS, 0);
     }).join();
     EXPECT_NE(scene, nullptr);
-    EXPECT_EQ(there, std::min(own + 10, 19)) << "the least there is";
+    EXPECT_EQ(loader_priority, std::min(own_priority + 10, 19)) << "the loading thread has a lower priority";
 }
 
 } // namespace

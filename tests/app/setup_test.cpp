@@ -1,4 +1,4 @@
-// What a sweep renders, and the columns of what it finds.
+// Setups that a sweep renders, and columns of its results.
 #include "app/cli/terminal.h"
 #include "app/experiment/result.h"
 #include "app/experiment/setup.h"
@@ -40,7 +40,7 @@ TEST(Setups, AreAllCombinations) {
                 ElementsAre("gpr-l2 2 relative", "gpr-l2 2 none", "gpr-l2 4 relative", "gpr-l2 4 none"));
 }
 
-TEST(Setups, HaveEveryReconstructionWhereThereAreGradients) {
+TEST(Setups, HaveAllReconstructionsIfTheyHaveGradients) {
     EXPECT_THAT(labels({Method::pt, Method::gpt}, {Norm::l2, Norm::l1}, {}),
                 ElementsAre("pt", "gpt-l2", "gpt-l1"));
     EXPECT_THAT(labels({Method::pr, Method::gpr}, {Norm::l2}, {"recon=none,mixed", "alpha=0.1,0.2"}),
@@ -48,16 +48,16 @@ TEST(Setups, HaveEveryReconstructionWhereThereAreGradients) {
     EXPECT_THAT(labels({Method::pt, Method::gpt}, {Norm::guided, Norm::smoothed}, {}),
                 ElementsAre("pt", "pt-smoothed", "gpt-guided", "gpt-smoothed"));
     EXPECT_THAT(labels({Method::gpr}, {Norm::uniform}, {"alpha=0.1,0.2"}), ElementsAre("gpr-uniform "))
-        << "averages of neighbours know no alpha";
+        << "uniform reconstruction has no alpha";
 }
 
-TEST(Setups, WhatMakesNoDifferenceIsOneSetup) {
+TEST(Setups, AreMergedIfSettingsMakeNoDifference) {
     EXPECT_THAT(labels({Method::pt, Method::pt}, {Norm::l2}, {"tile=2,4"}), ElementsAre("pt "));
     EXPECT_THAT(labels({Method::gpr}, {Norm::l2}, {"rr_delta=0.1,0.10,1", "roulette=absolute,none"}),
                 ElementsAre("gpr-l2 0.1 absolute", "gpr-l2  none", "gpr-l2 1 absolute"));
 }
 
-TEST(Setups, CarryTheirSettings) {
+TEST(Setups, HaveTheirSettings) {
     PictureSettings base;
     base.render.roulette_depth = 5;
     const auto setups =
@@ -68,7 +68,7 @@ TEST(Setups, CarryTheirSettings) {
     EXPECT_EQ(setups[0].settings.render.roulette_depth, 5);
 }
 
-TEST(Variable, OthersThanRenderSettingsCanBeVaried) {
+TEST(Variable, CanVaryOtherThanRenderSettings) {
     PictureSettings s;
     variable_named("size").set_text(s, "160x90");
     variable_named("threads").set_text(s, "3");
@@ -87,7 +87,7 @@ TEST(Variable, OthersThanRenderSettingsCanBeVaried) {
     EXPECT_EQ(variable_named("recon").number(s), std::nullopt);
 }
 
-TEST(Variable, RefusesWhatItMayNotBe) {
+TEST(Variable, RejectsInvalidValues) {
     for (const char* text : {"size=0x3", "size=3", "threads=0", "threads=1.5", "alpha=0", "alpha=nan", "recon=l3",
                              "threads=2000", "alpha=", "seed=1,2"})
         EXPECT_THROW(parse_variation(text), BadInput) << text;
@@ -109,7 +109,8 @@ TEST(Result, TakesMeansAndDeviationsOverTheSeeds) {
     EXPECT_DOUBLE_EQ(column_value("cpu_seconds", result), 2);
     EXPECT_DOUBLE_EQ(column_value("cpu_seconds_deviation", result), std::sqrt(2));
     EXPECT_DOUBLE_EQ(column_value("relmse_floor_free", result), 0.2);
-    EXPECT_DOUBLE_EQ(column_value("relmse_floor_free_uncertainty", result), 0.1) << "that of the two seeds";
+    EXPECT_DOUBLE_EQ(column_value("relmse_floor_free_uncertainty", result), 0.1)
+        << "standard error from two seeds";
     EXPECT_DOUBLE_EQ(column_value("relmse_floor_free_deviation", result), std::sqrt(0.02));
     EXPECT_DOUBLE_EQ(column_value("efficiency", result), 2.5);
     EXPECT_DOUBLE_EQ(column_value("reused_share", result), 0.6);
@@ -122,7 +123,7 @@ TEST(Result, TakesMeansAndDeviationsOverTheSeeds) {
     result.runs[0].floor_free.relative_mse = -1e-6;
     EXPECT_TRUE(std::isnan(column_value("efficiency", result))) << "the error is below its noise";
     result.runs[0].floor_free = {0.01, 0.02};
-    EXPECT_TRUE(std::isnan(column_value("relmse_floor_free", result))) << "and is not reported as a number";
+    EXPECT_TRUE(std::isnan(column_value("relmse_floor_free", result))) << "the error is below its uncertainty";
     EXPECT_EQ(column_value("relmse_floor_free_uncertainty", result), 0.02);
     EXPECT_EQ(column_value("below_uncertainty", result), 1);
 }

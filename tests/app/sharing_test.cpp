@@ -1,5 +1,5 @@
-// Several processes in one folder: they divide the jobs, find what one alone would, and go on without those that
-// are killed.
+// Several processes share one folder. They divide the jobs, give the results of one process, and continue if one
+// is killed.
 #include "render/io/exr.h"
 #include "tests/app/program.h"
 #include "tests/load/temporary_folder.h"
@@ -45,7 +45,7 @@ protected:
         std::ifstream in(folder() / name);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    /// All of sweep.json that is not of times and machines.
+    /// Returns the results of sweep.json without times and machines.
     json rows(const fs::path& output) const {
         json rows = json::parse(text(output / "sweep.json"))["results"];
         for (json& row : rows) {
@@ -86,7 +86,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(SharedFolder, ManyFindWhatOneFinds) {
+TEST_F(SharedFolder, ManyProcessesGiveTheResultsOfOne) {
     ASSERT_EQ(run(folder(), sweep_ + "--reference refs -o one").exit_code, 0);
     std::vector<pid_t> workers;
     for (int i = 0; i < 4; ++i)
@@ -95,15 +95,15 @@ TEST_F(SharedFolder, ManyFindWhatOneFinds) {
         EXPECT_EQ(code_of(worker), 0) << text("log.txt");
     EXPECT_EQ(rows("many"), rows("one"));
     EXPECT_EQ(job_files("many").size(), 18u + 1)
-        << "each has its file, and the report is marked as written: " << testing::PrintToString(job_files("many"));
+        << "one file per job, and a mark of the report: " << testing::PrintToString(job_files("many"));
     const std::string log = text("log.txt");
     std::size_t references = 0;
     for (std::size_t at = 0; (at = log.find("is missing: rendering it", at)) != log.npos; ++at)
         ++references;
-    EXPECT_EQ(references, 2u) << "one a scene";
+    EXPECT_EQ(references, 2u) << "one per scene";
 }
 
-TEST_F(SharedFolder, TheOthersGoOnWithoutOneThatIsKilled) {
+TEST_F(SharedFolder, OthersContinueIfOneIsKilled) {
     ASSERT_EQ(run(folder(), sweep_ + "--reference refs -o one").exit_code, 0);
     const std::string many = sweep_ + "--reference refs -o many";
     const pid_t first = start(many);
@@ -117,7 +117,7 @@ TEST_F(SharedFolder, TheOthersGoOnWithoutOneThatIsKilled) {
     EXPECT_EQ(job_files("many").size(), 18u + 1) << testing::PrintToString(job_files("many"));
 }
 
-TEST_F(SharedFolder, AJobArrayDoesAllAndTheLastReports) {
+TEST_F(SharedFolder, JobArrayDoesAllJobsAndTheLastReports) {
     ASSERT_EQ(run(folder(), sweep_ + "--reference refs -o one").exit_code, 0);
     const std::string many = sweep_ + "--reference refs -o many ";
     const Outcome list = run(folder(), many + "--list");
@@ -136,7 +136,7 @@ TEST_F(SharedFolder, AJobArrayDoesAllAndTheLastReports) {
     EXPECT_THAT(none.output, HasSubstr("--job 19: there are 18 jobs"));
 }
 
-TEST_F(SharedFolder, ReportsWhatThereIs) {
+TEST_F(SharedFolder, ReportsFinishedJobs) {
     const std::string sweep = sweep_ + "--reference refs -o out ";
     ASSERT_EQ(run(folder(), sweep + "--job 2").exit_code, 0);
     const Outcome o = run(folder(), sweep + "--report");
@@ -146,8 +146,8 @@ TEST_F(SharedFolder, ReportsWhatThereIs) {
     EXPECT_EQ(json::parse(text("out/sweep.json"))["results"].size(), 1u);
 }
 
-/// Seconds of different machines are no seconds of one.
-TEST_F(SharedFolder, MachinesAreToldApart) {
+/// Times of different machines are not comparable.
+TEST_F(SharedFolder, SeparatesMachines) {
     const std::string sweep = "sweep box.xml -m gpr,pt --seeds 3 --size 32x18 --spp 2 --reference refs "
                               "--reference-spp 2 --threads 1 -o out ";
     for (const char* job : {"--machine slow --job 1", "--machine fast/2 --job 2", "--machine fast/2 --job 3"})
@@ -168,14 +168,14 @@ TEST_F(SharedFolder, MachinesAreToldApart) {
     EXPECT_THAT(text("out/sweep.csv"), HasSubstr(",fast/2; slow\n"));
 }
 
-/// Errors after so many seconds depend on when these were: all that is compared is one job.
-TEST_F(SharedFolder, ByTimeAllSetupsAreOneJob) {
+/// Errors at a time limit depend on the load of the machine, so all compared setups form one job.
+TEST_F(SharedFolder, TimeLimitMakesAllSetupsOneJob) {
     const std::string rest = " --vary tile=2,3 --seeds 2 --size 32x18 --reference refs -o out --list";
     EXPECT_EQ(run(folder(), "sweep box.xml -m gpr,pt --time 3" + rest).output,
               "1\topen\t9 s\tbox, seed 0\n2\topen\t9 s\tbox, seed 1\n");
 }
 
-TEST_F(SharedFolder, WhatIsDamagedIsNamed) {
+TEST_F(SharedFolder, ErrorsNameDamagedFiles) {
     const std::string sweep = sweep_ + "--reference refs -o out ";
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
     std::string name;
@@ -190,7 +190,7 @@ TEST_F(SharedFolder, WhatIsDamagedIsNamed) {
     EXPECT_EQ(run(folder(), sweep).exit_code, 0);
 }
 
-TEST_F(SharedFolder, AFullDiskLosesNothingThatIsDone) {
+TEST_F(SharedFolder, FullDiskKeepsFinishedJobs) {
     const fs::path disk = folder() / "disk";
     fs::create_directory(disk);
     if (mount("none", disk.c_str(), "tmpfs", 0, "size=48k") != 0)
@@ -198,10 +198,10 @@ TEST_F(SharedFolder, AFullDiskLosesNothingThatIsDone) {
     const std::string sweep = sweep_ + "--reference refs -o disk/out";
     const Outcome full = run(folder(), sweep);
     EXPECT_EQ(full.exit_code, 2) << full.output;
-    EXPECT_THAT(full.output, HasSubstr(": cannot be written")); // a job, or the report of those that are done
+    EXPECT_THAT(full.output, HasSubstr(": cannot be written")); // a job or the report
     std::map<std::string, std::string> before;
     for (const std::string& file : job_files("disk/out")) {
-        EXPECT_TRUE(file.ends_with(".jsonl")) << file << " is left";
+        EXPECT_TRUE(file.ends_with(".jsonl")) << file << " is left over";
         before[file] = text("disk/out/jobs/" + file);
     }
     EXPECT_GE(before.size(), 1u);

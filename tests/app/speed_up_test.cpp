@@ -1,4 +1,4 @@
-// Speed-up at equal error, on curves whose truth is known.
+// Speed-up at equal error, on curves with a known speed-up.
 #include "app/experiment/speed_up.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace tessera::test {
 
 namespace {
 
-/// Errors of scale / time at doubling times from `first`, which the seeds' noise multiplies.
+/// Returns a curve with errors scale / time times a random factor per seed. Times double, beginning with `first`.
 Curve curve(double scale, double first, int stops, int seeds = 1, double noise = 0, unsigned stream = 0) {
     std::mt19937 random(stream);
     std::vector<double> factors;
@@ -35,12 +35,12 @@ Curve curve(double scale, double first, int stops, int seeds = 1, double noise =
 }
 
 TEST(SpeedUp, IsTheRatioOfTimesAtEqualError) {
-    // 1 to 32 s each, and 8 times the error: the curves overlap between 8/32 and 1.
+    // Both curves span about 1 to 32 s, one with 8 times the error, so their errors overlap between 8/32 and 1.
     const SpeedUp s = speed_up(curve(8, 1, 6), curve(1, 1.1, 6));
     EXPECT_EQ(s.kind, SpeedUp::Kind::measured);
     EXPECT_NEAR(s.factor, 8, 1e-9);
-    EXPECT_NEAR(s.error, 8.0 / 32, 1e-9) << "the least error that both come to";
-    EXPECT_TRUE(std::isnan(s.low)) << "one seed tells nothing of confidence";
+    EXPECT_NEAR(s.error, 8.0 / 32, 1e-9) << "the smallest error that both curves reach";
+    EXPECT_TRUE(std::isnan(s.low)) << "one seed gives no confidence interval";
     EXPECT_EQ(to_string(s), "8");
     EXPECT_NEAR(speed_up(curve(1, 1.1, 6), curve(8, 1, 6)).factor, 1.0 / 8, 1e-9);
 }
@@ -49,7 +49,7 @@ TEST(Curves, HaveThePointsThatAllSeedsReach) {
     Curve all = curve(1, 1, 4, 5);
     for (Result& result : all)
         result.scene = "room";
-    all[0].runs.resize(1); // the first pass of the others took longer
+    all[0].runs.resize(1); // the first pass of the other seeds took longer
     all[1].runs.resize(4);
     const auto scenes = curves_by_scene(all);
     ASSERT_EQ(scenes.size(), 1u);
@@ -59,7 +59,7 @@ TEST(Curves, HaveThePointsThatAllSeedsReach) {
         EXPECT_EQ(result.runs.size(), 5u);
 }
 
-TEST(SpeedUp, IsABoundWhereCurvesDoNotMeet) {
+TEST(SpeedUp, IsABoundIfCurvesDoNotOverlap) {
     const SpeedUp fast = speed_up(curve(1000, 1, 3), curve(1, 1, 3));
     EXPECT_EQ(fast.kind, SpeedUp::Kind::at_least);
     EXPECT_NEAR(fast.factor, 4, 1e-9) << "4 s against the first measurement at 1 s";
@@ -69,10 +69,10 @@ TEST(SpeedUp, IsABoundWhereCurvesDoNotMeet) {
     EXPECT_NEAR(slow.factor, 0.25, 1e-9);
 }
 
-/// A spike that one seed keeps for a while does not decide when an error was reached.
-TEST(SpeedUp, RisesAreLevelled) {
+/// A temporary rise, such as a firefly of one seed, does not decide when an error is reached.
+TEST(SpeedUp, LevelsRisesOfTheError) {
     Curve fast = curve(1, 1, 7);
-    fast[3].runs[0].floor_free.relative_mse *= 4; // 1, 1/2, 1/4, 1/2, 1/16: the rise is shared out
+    fast[3].runs[0].floor_free.relative_mse *= 4; // errors 1, 1/2, 1/4, 1/2, 1/16: the rise is levelled
     const SpeedUp s = speed_up(curve(8, 1, 7), fast);
     EXPECT_EQ(s.kind, SpeedUp::Kind::measured);
     EXPECT_NEAR(s.error, 8.0 / 64, 1e-9);
@@ -80,7 +80,7 @@ TEST(SpeedUp, RisesAreLevelled) {
     EXPECT_LT(s.factor, 8);
 }
 
-TEST(SpeedUp, LeavesOutWhatIsBelowItsUncertainty) {
+TEST(SpeedUp, LeavesOutErrorsBelowTheirUncertainty) {
     Curve fast = curve(1, 1, 4);
     for (Result& result : fast)
         result.runs[0].floor_free.standard_error = 1;
@@ -89,8 +89,8 @@ TEST(SpeedUp, LeavesOutWhatIsBelowItsUncertainty) {
     EXPECT_EQ(speed_up(curve(8, 1, 4), Curve(1)).kind, SpeedUp::Kind::none);
 }
 
-/// In many experiments with five seeds the truth is within the interval in about 95 %.
-TEST(SpeedUp, ConfidenceCoversTheTruth) {
+/// With five seeds, the interval contains the true factor in about 95 % of the experiments.
+TEST(SpeedUp, ConfidenceIntervalCoversTheTruth) {
     int covered = 0;
     constexpr unsigned rounds = 300;
     for (unsigned i = 0; i < rounds; ++i) {
@@ -104,7 +104,7 @@ TEST(SpeedUp, ConfidenceCoversTheTruth) {
     EXPECT_LT(covered, 0.995 * rounds);
 }
 
-TEST(Curve, SlopeIsThatOfTheLogarithms) {
+TEST(Curve, SlopeIsLogarithmic) {
     EXPECT_NEAR(slope_of(curve(3, 0.5, 5)), -1, 1e-9);
     EXPECT_TRUE(std::isnan(slope_of(curve(3, 0.5, 1))));
     EXPECT_TRUE(std::isnan(slope_of(Curve())));

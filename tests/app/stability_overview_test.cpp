@@ -9,13 +9,13 @@ namespace tessera::test {
 
 namespace {
 
-TEST(StabilityOverview, EveryCellIsInTheColumnOfItsPoint) {
+TEST(StabilityOverview, EveryCellIsInTheColumnOfItsMethod) {
     using Kind = Verdict::Kind;
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     const ReportTable table = overview({{"glossy-0.001", "pt", Kind::ok, 1},
                                         {"glossy-0.001", "pr", Kind::worse, 2.5},
                                         {"glossy-0.001", "gpr-l2", Kind::fails, unknown},
-                                        {"sds", "pt", Kind::ok, 1}, // Ctrl-C came before its second run of pr
+                                        {"sds", "pt", Kind::ok, 1}, // interrupted before the run of pr
                                         {"sds", "gpr-l2", Kind::ok, 0.125}});
     EXPECT_EQ(to_markdown(table), "| scene | pt | pr | gpr-l2 |\n"
                                   "| --- | --- | --- | --- |\n"

@@ -1,4 +1,4 @@
-// `tessera stability`: its files, what it takes up again, and what it refuses.
+// `tessera stability`: its files, resumed jobs and rejected input.
 #include "app/cli/opened_scene.h"
 #include "app/cli/terminal.h"
 #include "app/experiment/stability.h"
@@ -23,7 +23,7 @@
 
 namespace tessera::test {
 
-TEST(StabilityScenes, LieWithinTheProgramToo) {
+TEST(StabilityScenes, AreEmbeddedInTheProgram) {
     namespace fs = std::filesystem;
     const fs::path folder = fs::temp_directory_path() / ("tessera-unpacked-" + std::to_string(getpid()));
     const fs::path own = fs::path(TESSERA_SOURCE_DIR) / "assets/stability";
@@ -54,7 +54,7 @@ protected:
         out << std::ifstream(folder_.path() / name, std::ios::binary).rdbuf();
         return out.str();
     }
-    /// Files of finished jobs, in the order of their names.
+    /// Returns the files of finished jobs, sorted by name.
     std::set<fs::path> job_files(const fs::path& jobs) const {
         std::set<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder_.path() / jobs))
@@ -76,7 +76,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJobs) {
+TEST_F(StabilityCommand, JudgesAllMethodsAndReusesFinishedJobs) {
     const std::string options = "--seeds 3 --reference refs --reference-spp 32 -o out";
     const Outcome o = stability(options);
     ASSERT_EQ(o.exit_code, 0) << o.output;
@@ -98,7 +98,7 @@ TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJobs) {
                              "querySelectorAll('.compare')", ", FLIP 0.", "<svg xmlns", "</html>"})
         EXPECT_THAT(html, HasSubstr(part));
     for (const char* part : {"src=\"http", "<script src", "src=\"out"})
-        EXPECT_THAT(html, Not(HasSubstr(part))) << "it needs no other file";
+        EXPECT_THAT(html, Not(HasSubstr(part))) << "the page needs no other file";
     EXPECT_THAT(csv, HasSubstr(",relmse_error,flip,factor,"));
 
     const std::string jobs = all_text("out/scenes/texture/jobs");
@@ -107,7 +107,7 @@ TEST_F(StabilityCommand, JudgesAllMethodsAndGoesOnFromItsJobs) {
     EXPECT_EQ(text("out/stability.csv"), csv);
 }
 
-TEST_F(StabilityCommand, RendersAnewWhatIsKnownWithoutArtefacts) {
+TEST_F(StabilityCommand, RendersJobsWithoutArtefactsAgain) {
     const std::string options = "--seeds 2 --methods pt,pr --reference refs --reference-spp 32 -o out";
     ASSERT_EQ(stability(options).exit_code, 0);
     const std::size_t before = job_files("out/scenes/texture/jobs").size();
@@ -117,7 +117,7 @@ TEST_F(StabilityCommand, RendersAnewWhatIsKnownWithoutArtefacts) {
         for (std::string line; std::getline(in, line);) {
             auto entry = nlohmann::json::parse(line);
             if (entry.contains("value"))
-                entry["value"]["measurements"][0]["artefacts"] = nullptr; // as `tessera sweep` has them
+                entry["value"]["measurements"][0]["artefacts"] = nullptr; // as `tessera sweep` writes them
             lines += entry.dump() + "\n";
         }
         fs::remove(file);
@@ -129,7 +129,7 @@ TEST_F(StabilityCommand, RendersAnewWhatIsKnownWithoutArtefacts) {
     EXPECT_THAT(text("out/stability.csv"), HasSubstr("\ntexture,pr,none,"));
 }
 
-TEST_F(StabilityCommand, NoReferenceButOfPathTracingWillDo) {
+TEST_F(StabilityCommand, RejectsReferencesOfOtherMethodsThanPt) {
     ASSERT_EQ(run(folder_.path(), "reference '" + (suite / "no-light.xml").string() +
                                       "' --spp 4 --size 24x18 -m gpr -o refs/no-light-24x18-d8.exr")
                   .exit_code,
@@ -145,7 +145,7 @@ TEST_F(StabilityCommand, NoReferenceButOfPathTracingWillDo) {
     EXPECT_THAT(o.output, HasSubstr("no-light-24x18-d8.exr was not made by PT"));
 }
 
-TEST(StabilityScenes, AllAreUnderstoodAndSayWhatFails) {
+TEST(StabilityScenes, LoadWithoutNotesAndStateWhatFails) {
     const std::vector<fs::path> files = built_in_stability_scenes();
     EXPECT_TRUE(fs::equivalent(files.front().parent_path(), suite)) << files.front();
     EXPECT_TRUE(std::is_sorted(files.begin(), files.end()));
@@ -153,14 +153,14 @@ TEST(StabilityScenes, AllAreUnderstoodAndSayWhatFails) {
     for (const StabilityScene& scene : stability_scenes(files)) {
         for (const LoadNote& note : open_scene(scene.source, pool, nullptr).notes)
             EXPECT_THAT(note.text, HasSubstr("is approximated by"))
-                << scene.source.file << ": of round shapes alone";
+                << scene.source.file << ": other notes than of round shapes";
         EXPECT_GT(scene.fails.size(), 20u) << scene.source.file;
     }
 }
 
-/// The edge of a bright lamp is noise that all methods have alike, and hides how they differ.
+/// Noise at the edge of a bright lamp is the same for all methods, and would hide their differences.
 TEST(StabilityScenes, HideBrightLampsFromTheCamera) {
-    constexpr float bright = 100; // most of what is seen is near 1
+    constexpr float bright = 100; // most visible radiance is near 1
     ThreadPool pool(1);
     for (const StabilityScene& source : stability_scenes(built_in_stability_scenes())) {
         const OpenedScene opened = open_scene(source.source, pool, nullptr);
@@ -184,7 +184,7 @@ TEST(StabilityScenes, HideBrightLampsFromTheCamera) {
     }
 }
 
-TEST(StabilityScenes, VaryAsTheirCommentsSay) {
+TEST(StabilityScenes, VaryAsTheirCommentsState) {
     const std::vector<StabilityScene> scenes = stability_scenes({suite / "units.xml", suite / "bounces.xml"});
     ASSERT_EQ(scenes.size(), 4u);
     EXPECT_EQ(scenes[0].source.variables.at("unit"), "0.0001");
@@ -193,7 +193,7 @@ TEST(StabilityScenes, VaryAsTheirCommentsSay) {
     EXPECT_EQ(scenes[3].depth, 64);
 }
 
-TEST(StabilityScenes, SayWhatTheyNeed) {
+TEST(StabilityScenes, StateWhatTheyNeed) {
     const auto scenes = stability_scenes({suite / "long-run.xml", suite / "bounces.xml"});
     EXPECT_EQ(scenes[0].needs.spp, 100000);
     EXPECT_EQ(scenes[0].needs.seeds, 3);

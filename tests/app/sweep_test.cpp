@@ -1,4 +1,4 @@
-// `tessera sweep`: what it renders, what it writes, and what it refuses.
+// `tessera sweep`: renders, written files and rejected input.
 #include "app/experiment/result.h"
 #include "render/io/exr.h"
 #include "render/run/reference_image.h"
@@ -142,7 +142,7 @@ TEST_F(SweepCommand, MakesReferencesOnce) {
         EXPECT_TRUE(fs::exists(folder() / chart));
 }
 
-TEST_F(SweepCommand, MeasuresWhatRenderAndCompareDo) {
+TEST_F(SweepCommand, MatchesRenderAndCompare) {
     ASSERT_EQ(run(folder(), "sweep box/scene.xml -m gpr,pr --vary tile=3 --seed 5 --recon l1" + small_).exit_code,
               0);
     const json all = results();
@@ -162,15 +162,15 @@ TEST_F(SweepCommand, MeasuresWhatRenderAndCompareDo) {
     }
 }
 
-TEST_F(SweepCommand, TimeEndsARender) {
+TEST_F(SweepCommand, TimeLimitEndsARender) {
     const Outcome o = run(folder(), "sweep box/scene.xml -m pt --time 0.1 --size 32x18 --reference refs "
                                     "--reference-spp 2 -o out");
     ASSERT_EQ(o.exit_code, 0) << o.output;
     const json row = results()["results"][0];
     EXPECT_GE(row["cpu_seconds"], 0.1);
     EXPECT_GT(row["spp"], 1);
-    EXPECT_EQ(row["relmse_floor_free_deviation"], json()) << "one seed has none";
-    EXPECT_EQ(row["skipped_share"], json()) << "nothing is shared";
+    EXPECT_EQ(row["relmse_floor_free_deviation"], json()) << "one seed has no deviation";
+    EXPECT_EQ(row["skipped_share"], json()) << "PT reuses no paths";
 }
 
 TEST_F(SweepCommand, BadInputGetsAMessageAndRendersNothing) {
@@ -231,7 +231,7 @@ TEST_F(SweepCommand, OptionsMayComeBeforeScenes) {
     EXPECT_EQ(csv().size(), 3u);
 }
 
-TEST_F(SweepCommand, VariesWhatIsNoSettingOfTheRender) {
+TEST_F(SweepCommand, VariesOtherThanRenderSettings) {
     const Outcome o = run(folder(), "sweep box/scene.xml -m gpr,pt --recon l2,l1 --vary size=16x9,32x18 --vary "
                                     "threads=1,2 --spp 2 --reference refs --reference-spp 2 -o out");
     ASSERT_EQ(o.exit_code, 0) << o.output;
@@ -242,27 +242,27 @@ TEST_F(SweepCommand, VariesWhatIsNoSettingOfTheRender) {
     EXPECT_EQ(csv().size(), 4u);
 }
 
-/// What is finished is not rendered again; what is asked for beside it is.
-TEST_F(SweepCommand, GoesOnFromItsJobs) {
+/// Finished jobs are not rendered again, additional jobs are.
+TEST_F(SweepCommand, ReusesFinishedJobs) {
     const std::string sweep = "sweep box/scene.xml --vary tile=2,3" + small_;
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
     const json first = results()["results"];
     EXPECT_EQ(job_files().size(), 2u);
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
-    EXPECT_EQ(results()["results"], first) << "the same seconds, too";
+    EXPECT_EQ(results()["results"], first) << "the times are unchanged";
     EXPECT_EQ(job_files().size(), 2u);
     ASSERT_EQ(run(folder(), sweep + "--seeds 2").exit_code, 0);
     EXPECT_EQ(job_files().size(), 4u);
     EXPECT_EQ(results()["results"][1]["runs"][0], first[1]["runs"][0]);
     ASSERT_EQ(run(folder(), sweep + "--alpha 0.3").exit_code, 0);
-    EXPECT_EQ(job_files().size(), 6u) << "other settings are other jobs";
+    EXPECT_EQ(job_files().size(), 6u) << "other settings make other jobs";
     ASSERT_EQ(run(folder(), "sweep box/scene.xml --vary tile=3 -m pr,gpr" + small_).exit_code, 0);
     EXPECT_EQ(job_files().size(), 7u);
-    EXPECT_EQ(results()["results"][1]["runs"], first[1]["runs"]) << "one job of two methods, one of them known";
+    EXPECT_EQ(results()["results"][1]["runs"], first[1]["runs"]) << "a job of two methods reuses the finished one";
     fs::remove_all(folder() / "out");
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
     const std::string mine = "\"program\":\"0.1.0 ", other = "\"program\":\"0.0.9 ";
-    for (const fs::path& file : job_files()) { // as another build would name it
+    for (const fs::path& file : job_files()) { // as another build would write it
         std::string lines = text(file);
         lines.replace(lines.find(mine), mine.size(), other);
         fs::remove(file);
@@ -274,10 +274,10 @@ TEST_F(SweepCommand, GoesOnFromItsJobs) {
     EXPECT_EQ(job_files().size(), 4u) << "another build may be faster";
     fs::remove(reference());
     ASSERT_EQ(run(folder(), sweep + "--reference-spp 4").exit_code, 0);
-    EXPECT_EQ(job_files().size(), 6u) << "to another reference there are other errors";
+    EXPECT_EQ(job_files().size(), 6u) << "another reference gives other errors";
 }
 
-TEST_F(SweepCommand, InterruptKeepsWhatThereIs) {
+TEST_F(SweepCommand, InterruptKeepsFinishedJobs) {
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder().c_str()) != 0 || !std::freopen("log.txt", "w", stderr))
@@ -292,7 +292,7 @@ TEST_F(SweepCommand, InterruptKeepsWhatThereIs) {
     int status = 0;
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 1) << "it is not what was asked for";
+    EXPECT_EQ(WEXITSTATUS(status), 1) << "the sweep is incomplete";
     const json all = results();
     EXPECT_EQ(all["interrupted"], true);
     ASSERT_GE(all["results"].size(), 1u);

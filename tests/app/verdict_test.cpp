@@ -1,4 +1,4 @@
-// Verdicts on made pictures whose truth is known.
+// Verdicts on synthetic images with a known truth.
 #include "app/experiment/stability.h"
 
 #include <array>
@@ -25,10 +25,10 @@ Rgb truth(int x, int y) {
     return Rgb(0.2f, 0.5f, 0.3f) * (1 + 0.5f * std::sin(0.2f * float(x)) + float(y) / height);
 }
 
-/// What a method makes of the truth at a pixel in the mean.
+/// Expected value of a method at a pixel.
 using Mean = std::function<Rgb(int x, int y)>;
 
-/// The mean with relative noise of that standard deviation, from pixel to pixel.
+/// Returns the mean image with noise. The standard deviation is relative to the truth.
 RgbImage noisy(const Mean& mean, double deviation, std::mt19937& random, glm::ivec2 size = {width, height}) {
     std::normal_distribution<double> normal;
     RgbImage image(size.x, size.y);
@@ -38,7 +38,7 @@ RgbImage noisy(const Mean& mean, double deviation, std::mt19937& random, glm::iv
     return image;
 }
 
-/// A suite of one scene: its references, and the runs of methods.
+/// Suite of one scene: its references, and the runs of methods.
 class Suite {
 public:
     explicit Suite(double reference_noise = 0.02, glm::ivec2 size = {width, height}) : size_(size) {
@@ -77,7 +77,7 @@ public:
     Result pt_;
 };
 
-TEST(Verdict, AnUnbiasedMethodIsOkHoweverNoisyTheReference) {
+TEST(Verdict, UnbiasedMethodIsOkWithANoisyReference) {
     for (double reference_noise : {0.0, 0.02, 0.3}) {
         Suite suite(reference_noise);
         const Verdict v = suite.verdict(truth, 0.3);
@@ -86,11 +86,11 @@ TEST(Verdict, AnUnbiasedMethodIsOkHoweverNoisyTheReference) {
     }
 }
 
-TEST(Verdict, OnePieceTellsNothingOfABias) {
+TEST(Verdict, OnePieceGivesNoBias) {
     for (double reference_noise : {0.02, 0.1, 0.3, 0.5}) {
         Suite suite(reference_noise, {8, 8});
         const Findings f = suite.findings(suite.pt_);
-        EXPECT_EQ(f.squared_bias.sigmas, 0) << "there is no standard error of one";
+        EXPECT_EQ(f.squared_bias.sigmas, 0) << "one piece has no standard error";
         const Verdict v = suite.verdict(truth, 0.3);
         EXPECT_EQ(v.kind, Verdict::Kind::ok) << v.cause;
     }
@@ -101,12 +101,12 @@ TEST(Verdict, FalseAlarmsAreRare) {
     Suite suite;
     for (int i = 0; i < 100; ++i) {
         const Findings f = suite.findings(suite.result(truth, 0.5));
-        alarms += f.energy.sigmas > 2.576 || f.squared_bias.sigmas > 2.576; // one in a hundred, each
+        alarms += f.energy.sigmas > 2.576 || f.squared_bias.sigmas > 2.576; // each with a probability of 1 %
     }
     EXPECT_LE(alarms, 8);
 }
 
-TEST(Verdict, LostEnergyIsFoundBelowTheNoise) {
+TEST(Verdict, FindsLostEnergyBelowTheNoise) {
     Suite suite;
     const Mean dark = [](int x, int y) { return 0.98f * truth(x, y); };
     const Verdict v = suite.verdict(dark, 0.3);
@@ -116,13 +116,13 @@ TEST(Verdict, LostEnergyIsFoundBelowTheNoise) {
     const Deviation energy = suite.findings(suite.result(dark, 0.3)).energy;
     EXPECT_NEAR(energy.value, -0.02, 0.006) << "four standard errors";
     EXPECT_NEAR(energy.error, 0.3 / std::sqrt(width * height * seeds), 0.001);
-    EXPECT_EQ(suite.verdict(dark, 0.3, Norm::l1).kind, Verdict::Kind::ok) << "smoothing may take two per cent";
-    EXPECT_EQ(suite.verdict(dark, 0.3, Norm::smoothed).kind, Verdict::Kind::ok) << "and so may the denoiser";
+    EXPECT_EQ(suite.verdict(dark, 0.3, Norm::l1).kind, Verdict::Kind::ok) << "a biased norm may lose 2 %";
+    EXPECT_EQ(suite.verdict(dark, 0.3, Norm::smoothed).kind, Verdict::Kind::ok) << "the denoiser may lose 2 %";
     EXPECT_EQ(suite.verdict([](int x, int y) { return 0.9f * truth(x, y); }, 0.3, Norm::l1).kind,
               Verdict::Kind::fails);
 }
 
-TEST(Verdict, ABiasThatKeepsTheEnergyIsFound) {
+TEST(Verdict, FindsABiasThatKeepsTheEnergy) {
     Suite suite;
     const Mean wavy = [](int x, int y) { return truth(x, y) * (x / 8 % 2 ? 1.03f : 0.97f); };
     const Findings f = suite.findings(suite.result(wavy, 0.3));
@@ -133,7 +133,7 @@ TEST(Verdict, ABiasThatKeepsTheEnergyIsFound) {
     EXPECT_THAT(v.cause, HasSubstr("biased by "));
 }
 
-TEST(Verdict, SmoothingMayNotMoveMuchOfTheLight) {
+TEST(Verdict, LimitsTheBiasOfReconstructions) {
     Suite suite;
     const auto wavy = [](float by) -> Mean {
         return [by](int x, int y) { return truth(x, y) * (x / 8 % 2 ? 1 + by : 1 - by); };
@@ -144,15 +144,15 @@ TEST(Verdict, SmoothingMayNotMoveMuchOfTheLight) {
     EXPECT_THAT(v.cause, HasSubstr("biased by 2"));
 }
 
-TEST(Verdict, LightThatTheReferenceLacksCondemnsNobody) {
-    // Every method has it, PT among them.
+TEST(Verdict, LightMissingInTheReferenceIsUndecided) {
+    // All methods, including PT, have the additional light.
     Suite suite;
     const Mean lit = [](int x, int y) { return 1.05f * truth(x, y); };
     suite.pt_ = suite.result(lit, 0.3, Method::pt);
     EXPECT_EQ(suite.verdict(lit, 0.3).kind, Verdict::Kind::undecided);
 }
 
-TEST(Verdict, OnePixelThatIsNotFiniteFails) {
+TEST(Verdict, OneNonFinitePixelFails) {
     Suite suite;
     RgbImage image = noisy(truth, 0.3, suite.random_);
     image(3, 4) = Rgb(0, std::numeric_limits<float>::quiet_NaN(), 0);
@@ -163,10 +163,10 @@ TEST(Verdict, OnePixelThatIsNotFiniteFails) {
     EXPECT_EQ(v.cause, "not finite: 1 pixels");
 }
 
-TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
+TEST(Verdict, WorseMethodHasAFactorAndInterval) {
     Suite suite;
     const Findings f = suite.findings(suite.result(truth, 0.6));
-    EXPECT_NEAR(f.factor, 4, 0.3) << "twice the deviation";
+    EXPECT_NEAR(f.factor, 4, 0.3) << "twice the standard deviation";
     EXPECT_LT(f.low, 4);
     EXPECT_GT(f.high, 4);
     EXPECT_GT(f.low, 2.5);
@@ -174,7 +174,7 @@ TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
     EXPECT_EQ(v.kind, Verdict::Kind::worse);
     EXPECT_THAT(v.cause, HasSubstr("times PT's error at equal time: "));
     EXPECT_THAT(v.cause, HasSubstr("costs 1 times"));
-    EXPECT_THAT(v.cause, Not(HasSubstr("shifts"))) << "none was tried";
+    EXPECT_THAT(v.cause, Not(HasSubstr("shifts"))) << "no shift was tried";
 
     Result slow = suite.result(truth, 0.3);
     for (Measurement& m : slow.runs)
@@ -185,11 +185,11 @@ TEST(Verdict, AWorseMethodHasItsFactorAndInterval) {
     EXPECT_NEAR(suite.findings(suite.result(truth, 0.1)).factor, 1.0 / 9, 0.02);
 }
 
-TEST(Verdict, AWorseMethodIsToldWhatSamplesCostAndWhereShiftsFail) {
+TEST(Verdict, WorseMethodHasSampleCostAndShiftFailures) {
     Suite suite;
     Result result = suite.result(truth, 0.6, Method::gpr);
     for (Measurement& m : result.runs) {
-        m.spp = 4; // in the time of PT's 16
+        m.spp = 4; // in the time of 16 samples of PT
         m.counters.shifts[static_cast<int>(ShiftOutcome::ok)] = 10;
         m.counters.shifts[static_cast<int>(ShiftOutcome::occluded)] = 30;
         m.counters.shifts[static_cast<int>(ShiftOutcome::kind_mismatch)] = 60;
@@ -203,12 +203,12 @@ TEST(Verdict, AWorseMethodIsToldWhatSamplesCostAndWhereShiftsFail) {
     EXPECT_THAT(suite.verdict(result).cause, Not(HasSubstr("shifts")));
 }
 
-TEST(Verdict, ErrorsBelowTheReferencesNoiseAreNoFactor) {
+TEST(Verdict, ErrorsBelowTheReferenceNoiseGiveNoFactor) {
     Suite suite(0.3);
     EXPECT_TRUE(std::isnan(suite.findings(suite.result(truth, 1e-3)).factor));
 }
 
-TEST(Verdict, SpikesAreThoseOfThePictureAndNotOfTheReference) {
+TEST(Verdict, FirefliesOfTheReferenceDoNotCount) {
     Suite suite;
     suite.halves_[0](10, 10) *= 1000.0f;
     Result result = suite.result(truth, 0.1);
@@ -223,7 +223,7 @@ TEST(Verdict, SpikesAreThoseOfThePictureAndNotOfTheReference) {
     EXPECT_GT(f.worst_fraction, 0.9);
 }
 
-TEST(Verdict, OfABlackSceneOnlyBlackIsRight) {
+TEST(Verdict, BlackSceneAcceptsOnlyBlack) {
     Suite suite;
     suite.halves_ = {RgbImage(width, height), RgbImage(width, height)};
     const Mean black = [](int, int) { return Rgb(0); };

@@ -1,4 +1,4 @@
-// Files beside a scene that are cut short, lie about their size, or hold what is no geometry.
+// Mesh and image files that are truncated, declare a false size, or hold invalid data.
 
 #include "render/io/exr.h"
 #include "render/io/files.h"
@@ -22,7 +22,7 @@ constexpr const char* formats[] = {"obj", "ply", "serialized"};
 
 class BrokenFile : public testing::Test {
 protected:
-    /// The error of a scene with a shape of that type and file, or "no error".
+    /// Returns the error message of a scene with a shape of this type and file, or "no error".
     std::string error_of_shape(const std::string& type, const std::string& file) const {
         return error_of("<shape type='" + type + "'><string name='filename' value='" + file + "'/></shape>");
     }
@@ -42,8 +42,7 @@ protected:
         return "no error";
     }
 
-    /// Writes the first `length` bytes.
-    void write_part(const std::string& name, const std::string& bytes, std::size_t length) const {
+    void write_prefix(const std::string& name, const std::string& bytes, std::size_t length) const {
         folder.write(name, std::string_view(bytes).substr(0, length));
     }
 
@@ -64,7 +63,7 @@ std::string ply(const std::string& vertices, int vertex_count, const std::string
            "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
 }
 
-/// The header of a PNG of that size, without any data.
+/// Returns the header of a PNG of this size, without pixels.
 std::string png_header(std::uint32_t width, std::uint32_t height) {
     std::string header("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
     const auto append = [&](std::uint32_t number) {
@@ -74,11 +73,11 @@ std::string png_header(std::uint32_t width, std::uint32_t height) {
     append(width);
     append(height);
     header += std::string("\x08\x02\0\0\0", 5);
-    append(checksum(std::as_bytes(std::span(header)).subspan(12))); // of the chunk's type and data
+    append(checksum(std::as_bytes(std::span(header)).subspan(12))); // CRC of the chunk's type and data
     return header + std::string("\0\0\0\0IDAT\0\0\0\0", 12);
 }
 
-/// The header of an OpenEXR file with that data window.
+/// Returns the header of an OpenEXR file with a data window of this size, in pixels.
 std::string exr_header(std::int32_t width, std::int32_t height) {
     std::string bytes("\x76\x2f\x31\x01\x02\0\0\0", 8);
     const auto attribute = [&](const std::string& name, const std::string& type, const std::string& value) {
@@ -89,7 +88,7 @@ std::string exr_header(std::int32_t width, std::int32_t height) {
     std::string channels;
     for (const char* name : {"B", "G", "R"}) {
         channels += std::string(name) + '\0';
-        for (const std::int32_t number : {2, 0, 1, 1}) // float, not linear, every pixel
+        for (const std::int32_t number : {2, 0, 1, 1}) // type float, pLinear 0, x and y sampling 1
             SerializedBytes::append(channels, number);
     }
     std::string window;
@@ -110,7 +109,7 @@ std::string exr_header(std::int32_t width, std::int32_t height) {
 
 } // namespace
 
-TEST_F(BrokenFile, EmptyAndForeign) {
+TEST_F(BrokenFile, RejectsEmptyAndForeignFiles) {
     folder.write("empty", "");
     folder.write("foreign", "GIF87 or another\nformat\n");
     EXPECT_NE(error_of_shape("ply", "empty").find("cannot load 'empty': line 1"), std::string::npos);
@@ -119,11 +118,11 @@ TEST_F(BrokenFile, EmptyAndForeign) {
     EXPECT_NE(error_of_shape("serialized", "foreign").find("not a file of serialized"), std::string::npos);
     EXPECT_NE(error_of_texture("empty").find("it is not an OpenEXR"), std::string::npos);
     EXPECT_NE(error_of_texture("foreign").find("it is not an OpenEXR"), std::string::npos);
-    // OBJ has no mark at its beginning, and any line may be a word of some dialect.
+    // OBJ files have no signature, and unknown keywords are allowed, so an empty file is valid.
     EXPECT_EQ(error_of_shape("obj", "empty"), "no error");
 }
 
-TEST_F(BrokenFile, TruncatedImages) {
+TEST_F(BrokenFile, RejectsTruncatedImages) {
     RgbImage image(16, 16, Rgb(0.25f));
     image(3, 3) = Rgb(1, 0, 0.5f);
     write_png(folder.path() / "whole.png", image);
@@ -133,7 +132,7 @@ TEST_F(BrokenFile, TruncatedImages) {
         EXPECT_EQ(error_of_texture("whole" + extension), "no error");
         for (const std::size_t length : {std::size_t{0}, std::size_t{4}, std::size_t{20}, whole.size() / 4,
                                          whole.size() / 2, whole.size() - 20}) {
-            write_part("part" + extension, whole, length);
+            write_prefix("part" + extension, whole, length);
             EXPECT_NE(error_of_texture("part" + extension).find("cannot load 'part" + extension),
                       std::string::npos)
                 << extension << " " << length;
@@ -141,8 +140,8 @@ TEST_F(BrokenFile, TruncatedImages) {
     }
 }
 
-/// Cameras and old programs leave some bytes too many between the parts of a file.
-TEST_F(BrokenFile, JpegWithBytesTooManyIsFineAndOneCutOffIsNot) {
+/// Cameras and old programs write superfluous bytes between JPEG segments.
+TEST_F(BrokenFile, AcceptsSuperfluousBytesInAJpegAndRejectsATruncatedOne) {
     const std::string whole =
         read_bytes(std::filesystem::path(TESSERA_SOURCE_DIR) / "tests/fuzz/seeds/picture/square.jpg");
     const std::size_t end = whole.rfind("\xff\xd9");
@@ -153,7 +152,7 @@ TEST_F(BrokenFile, JpegWithBytesTooManyIsFineAndOneCutOffIsNot) {
     EXPECT_THAT(error_of_texture("less.jpg"), testing::HasSubstr("cannot load 'less.jpg'"));
 }
 
-TEST_F(BrokenFile, ThePictureDecidesNotItsName) {
+TEST_F(BrokenFile, DetectsTheImageFormatFromTheContents) {
     const RgbImage image(9, 2, Rgb(0.5f, 1, 0.25f));
     write_exr(folder.path() / "exr.png", {{{"", image}}, {}});
     write_png(folder.path() / "png.exr", image, 0);
@@ -168,9 +167,9 @@ TEST_F(BrokenFile, ThePictureDecidesNotItsName) {
     }
 }
 
-TEST_F(BrokenFile, RadianceRunsFitTheirRows) {
+TEST_F(BrokenFile, RejectsRadianceRunsThatDoNotFitTheRow) {
     const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 16\n" + std::string("\2\2\0\20", 4);
-    const std::string row = "\x90\x80\x90\x40\x90\x20\x90\x81"; // 16 times each channel
+    const std::string row = "\x90\x80\x90\x40\x90\x20\x90\x81"; // each channel as a run of 16 bytes
     folder.write("fine.hdr", head + row);
     EXPECT_EQ(error_of_texture("fine.hdr"), "no error");
     EXPECT_EQ(read_bitmap(folder.path() / "fine.hdr", true, [] { return true; }).floats.at(15),
@@ -182,7 +181,7 @@ TEST_F(BrokenFile, RadianceRunsFitTheirRows) {
     }
 }
 
-TEST_F(BrokenFile, APictureThatIsWantedNoMoreIsGivenUp) {
+TEST_F(BrokenFile, ReadingAnImageStopsWhenCancelled) {
     const RgbImage image(64, 64, Rgb(0.5f));
     write_exr(folder.path() / "a.exr", {{{"", image}}, {}});
     write_png(folder.path() / "a.png", image, 0);
@@ -191,7 +190,7 @@ TEST_F(BrokenFile, APictureThatIsWantedNoMoreIsGivenUp) {
         EXPECT_THROW(read_bitmap(folder.path() / name, true, [] { return false; }), std::exception) << name;
 }
 
-TEST_F(BrokenFile, AbsurdImages) {
+TEST_F(BrokenFile, RejectsImagesOfImpossibleSize) {
     const auto expect = [&](const char* file, const std::string& bytes, const std::string& message) {
         folder.write(file, bytes);
         EXPECT_NE(error_of_texture(file).find(message), std::string::npos) << error_of_texture(file);
@@ -200,14 +199,14 @@ TEST_F(BrokenFile, AbsurdImages) {
     expect("b.png", png_header(17000, 17000), "an image of 17000 by 17000 pixels is too large");
     expect("c.png", png_header(16000, 16000), "the file is too short for 16000 by 16000 pixels");
     expect("a.exr", exr_header(1000000, 1000000), "cannot load 'a.exr'");
-    const std::string offsets(std::size_t{8} * 20000, '\0'); // of the rows
+    const std::string offsets(std::size_t{8} * 20000, '\0'); // table of row offsets
     expect("b.exr", exr_header(20000, 20000) + offsets, "an image of 20000 by 20000 pixels is too large");
     expect("c.exr", exr_header(100000000, 2) + std::string(16, '\0'),
            "an image of 100000000 by 2 pixels is too large");
     expect("d.exr", exr_header(0, 5), "cannot load 'd.exr'");
 }
 
-TEST_F(BrokenFile, ABillionFaces) {
+TEST_F(BrokenFile, RejectsFalseCountsInAPly) {
     const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
     folder.write("faces.ply", ply(three, 3, "3 0 1 2\n", 1000000000));
     EXPECT_NE(error_of_shape("ply", "faces.ply").find("the header declares 1000000000 rows of 'face'"),
@@ -221,7 +220,7 @@ TEST_F(BrokenFile, ABillionFaces) {
     EXPECT_NE(error_of_shape("ply", "list.ply").find("face 0: the file ends too early"), std::string::npos);
 }
 
-TEST_F(BrokenFile, IndicesOutOfRange) {
+TEST_F(BrokenFile, RejectsIndicesOutOfRange) {
     folder.write("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     folder.write("ply", ply("0 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 3\n", 1));
     std::string body = SerializedBytes(4).square<float>(0, 1);
@@ -231,7 +230,7 @@ TEST_F(BrokenFile, IndicesOutOfRange) {
         EXPECT_NE(error_of_shape(format, format).find(" refers to "), std::string::npos) << format;
 }
 
-TEST_F(BrokenFile, VerticesThatAreNoNumbers) {
+TEST_F(BrokenFile, RejectsNonFiniteVertices) {
     const auto expect = [&](const char* format, const std::string& message) {
         EXPECT_NE(error_of_shape(format, format).find(message), std::string::npos)
             << error_of_shape(format, format);
@@ -248,8 +247,8 @@ TEST_F(BrokenFile, VerticesThatAreNoNumbers) {
     expect("serialized", "position 1 is not finite");
 }
 
-TEST_F(BrokenFile, TrianglesWithoutAreaAndInsideOutLoad) {
-    // There are one point, one line, one triangle, and the same seen from behind.
+TEST_F(BrokenFile, LoadsDegenerateAndFlippedTriangles) {
+    // The faces are a point, a line, a triangle, and the same triangle flipped.
     const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n2 0 0\n";
     const std::string faces = "3 0 0 0\n3 0 1 3\n3 0 1 2\n3 0 2 1\n";
     folder.write("m.ply", ply(vertices, 4, faces, 4));
@@ -261,7 +260,7 @@ TEST_F(BrokenFile, TrianglesWithoutAreaAndInsideOutLoad) {
     EXPECT_EQ(front_normal(mesh, mesh.triangles[1]), glm::vec3(0));
 }
 
-TEST_F(BrokenFile, TwoListsOfVertices) {
+TEST_F(BrokenFile, RejectsASecondVertexList) {
     folder.write("m.ply",
                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                  "property float z\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"

@@ -1,4 +1,4 @@
-// A table of broken scenes with the message that each must give, and where.
+// Broken scenes, with the message and the place that each must report.
 
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
@@ -13,11 +13,10 @@ namespace {
 
 struct Broken {
     const char* name;
-    const char* body; // between <scene version="3.0.0"> and </scene>, from line 2 on
-    const char* message;
+    const char* body;    // contents of <scene version="3.0.0">, which begin on line 2
+    const char* message; // expected after "b.xml:"
 };
 
-// The message stands after "b.xml:".
 constexpr Broken broken_scenes[] = {
     {"unknown variable", "<integrator type='path'><integer name='max_depth' value='$deep'/></integrator>",
      "2:58: the variable '$deep' is not defined"},
@@ -28,7 +27,7 @@ constexpr Broken broken_scenes[] = {
     {"undefined ref", "<shape type='cube'>\n  <ref id='wood'/></shape>",
      "3:12: nothing in the file has the id 'wood'"},
     {"ref without id", "<shape type='cube'><ref/></shape>", "2:20: <ref> needs the attribute 'id'"},
-    {"alias of nothing", "<alias id='x' as='y'/>", "2:12: nothing in the file has the id 'x'"},
+    {"alias of an unknown id", "<alias id='x' as='y'/>", "2:12: nothing in the file has the id 'x'"},
     {"id twice", "<bsdf type='diffuse' id='a'/>\n<shape type='cube' id='a'/>",
      "3:24: the id 'a' is already used by the <bsdf> at b.xml:2:1"},
     {"circle of references", "<bsdf type='twosided' id='a'><ref id='a'/></bsdf>",
@@ -47,15 +46,16 @@ constexpr Broken broken_scenes[] = {
      "2:56: 'alpha' must not be negative"},
     {"not an integer", "<integrator type='path'><integer name='max_depth' value='2.5'/></integrator>",
      "2:58: '2.5' is not an integer"},
-    {"no depth", "<integrator type='path'><integer name='max_depth' value='0'/></integrator>",
+    {"max_depth of 0", "<integrator type='path'><integer name='max_depth' value='0'/></integrator>",
      "2:58: 'max_depth' must be at least 1, or -1 for no limit"},
     {"wrong type", "<integrator type='path'><float name='max_depth' value='2'/></integrator>",
      "2:25: 'max_depth' must be of type <integer>, not <float>"},
-    {"neither true nor false", "<shape type='cube'><boolean name='flip_normals' value='yes'/></shape>",
+    {"boolean that is neither true nor false",
+     "<shape type='cube'><boolean name='flip_normals' value='yes'/></shape>",
      "2:56: 'yes' is neither 'true' nor 'false'"},
     {"two numbers for a colour", "<bsdf type='diffuse'><rgb name='reflectance' value='1, 2'/></bsdf>",
      "2:53: '1, 2' must be one number or three"},
-    {"words for a colour", "<bsdf type='diffuse'><rgb name='reflectance' value='1, red, 2'/></bsdf>",
+    {"colour with a word", "<bsdf type='diffuse'><rgb name='reflectance' value='1, red, 2'/></bsdf>",
      "2:53: '1, red, 2' is not a list of numbers"},
     {"bad hexadecimal colour", "<bsdf type='diffuse'><rgb name='reflectance' value='#12345g'/></bsdf>",
      "2:53: '#12345g' is not a colour such as '#a0b0c0'"},
@@ -70,25 +70,26 @@ constexpr Broken broken_scenes[] = {
      "2:69: 'radiance' must not be negative"},
     {"unknown material", "<bsdf type='dielectric'><string name='int_ior' value='cheese'/></bsdf>",
      "2:55: the index of refraction of 'cheese' is not known"},
-    {"impossible index", "<bsdf type='dielectric'><float name='int_ior' value='0'/></bsdf>",
+    {"index of refraction of 0", "<bsdf type='dielectric'><float name='int_ior' value='0'/></bsdf>",
      "2:54: an index of refraction must be above 0"},
-    {"nothing inside", "<bsdf type='twosided'/>", "2:1: 'twosided' needs a nested <bsdf>"},
+    {"twosided without a material", "<bsdf type='twosided'/>", "2:1: 'twosided' needs a nested <bsdf>"},
     {"short matrix", "<shape type='cube'><transform name='to_world'><matrix value='1 0 0'/></transform></shape>",
      "2:62: a matrix has 16 numbers, or 9; here are 3"},
-    {"unknown step", "<shape type='cube'><transform name='to_world'><twist x='1'/></transform></shape>",
+    {"unknown step of a transform",
+     "<shape type='cube'><transform name='to_world'><twist x='1'/></transform></shape>",
      "2:47: <twist> is not a step of a transform"},
-    {"rotation about nothing",
+    {"rotation without an axis",
      "<shape type='cube'><transform name='to_world'><rotate angle='1'/></transform></shape>",
      "2:47: a rotation needs an axis"},
-    {"looking nowhere",
+    {"lookat with target at origin",
      "<sensor type='perspective'><transform name='to_world'><lookat origin='1,2,3' target='1,2,3'/></transform>"
      "</sensor>",
      "2:86: origin and target of a lookat are the same point"},
     {"flat camera", "<sensor type='perspective'><transform name='to_world'><scale z='0'/></transform></sensor>",
      "2:28: the camera's transform is flat"},
-    {"field of view", "<sensor type='perspective'><float name='fov' value='180'/></sensor>",
+    {"field of view of 180 degrees", "<sensor type='perspective'><float name='fov' value='180'/></sensor>",
      "2:53: the field of view must be between 0 and 180 degrees"},
-    {"axis",
+    {"unknown axis of the field of view",
      "<sensor type='perspective'><float name='fov' value='9'/><string name='fov_axis' value='w'/></sensor>",
      "2:88: 'w' is not an axis (x, y, diagonal, smaller or larger)"},
     {"lens without a radius", "<sensor type='thinlens'/>",
@@ -99,31 +100,31 @@ constexpr Broken broken_scenes[] = {
      "<sensor type='thinlens'><float name='aperture_radius' value='1'/>\n<float name='focus_distance' value='0'/>"
      "</sensor>",
      "3:37: 'focus_distance' must be above 0"},
-    {"absurd film",
+    {"film that is too wide",
      "<sensor type='perspective'><film type='hdrfilm'>\n<integer name='width' value='100000000'/></film></sensor>",
      "3:30: the film's width must be from 1 to 16384"},
     {"film without pixels",
      "<sensor type='perspective'><film type='hdrfilm'><integer name='height' value='0'/></film></sensor>",
      "2:79: the film's height must be from 1 to 16384"},
     {"mesh without file name", "<shape type='ply'/>", "2:1: 'ply' needs a 'filename'"},
-    {"files beside nothing", "<shape type='ply'><string name='filename' value='a.ply'/></shape>",
+    {"file name in a scene in memory", "<shape type='ply'><string name='filename' value='a.ply'/></shape>",
      "2:50: a scene in memory has no files beside it, such as 'a.ply'"},
     {"raw constant without a value",
      "<bsdf type='diffuse'><texture name='reflectance' type='rawconstant'/></bsdf>",
      "2:22: 'rawconstant' needs a 'value'"},
     {"attribute without a name", "<bsdf type='diffuse'><texture name='reflectance' type='mesh_attribute'/></bsdf>",
      "2:22: 'mesh_attribute' needs a 'name'"},
-    {"attribute of nothing",
+    {"attribute without a prefix",
      "<bsdf type='diffuse'><texture name='reflectance' type='mesh_attribute'>\n<string name='name' value='color'/>"
      "</texture></bsdf>",
      "3:28: 'color' is not an attribute: its name must begin with 'vertex_' or 'face_'"},
     {"blackbody without temperature",
      "<shape type='cube'><emitter type='area'><blackbody name='radiance'/></emitter></shape>",
      "2:41: <blackbody> needs the attribute 'temperature'"},
-    {"cold blackbody",
+    {"black body of 0 K",
      "<shape type='cube'><emitter type='area'><blackbody name='radiance' temperature='0K'/></emitter></shape>",
      "2:41: the temperature of a black body must be above 0"},
-    {"hot blackbody",
+    {"black body that is too bright",
      "<shape type='cube'><emitter type='area'><blackbody name='radiance' temperature='1e38' scale='1e30'/>"
      "</emitter></shape>",
      "2:41: the black body is too bright"},
@@ -131,16 +132,17 @@ constexpr Broken broken_scenes[] = {
      "<bsdf type='diffuse'><spectrum name='reflectance' type='irregular'><string name='values' value='1, 2'/>"
      "</spectrum></bsdf>",
      "2:22: 'irregular' needs as many 'wavelengths' as 'values', lists of numbers"},
-    {"huge spectrum", "<bsdf type='diffuse'><spectrum name='reflectance' value='400:3e38, 700:3e38'/></bsdf>",
+    {"spectrum of huge numbers",
+     "<bsdf type='diffuse'><spectrum name='reflectance' value='400:3e38, 700:3e38'/></bsdf>",
      "2:58: the spectrum's numbers are too large"},
-    {"sphere of no size", "<shape type='sphere'><float name='radius' value='0'/></shape>",
+    {"sphere of radius 0", "<shape type='sphere'><float name='radius' value='0'/></shape>",
      "2:50: the radius must be above 0"},
-    {"cylinder of no length",
+    {"cylinder of length 0",
      "<shape type='cylinder'><point name='p0' x='1'/><point name='p1' value='1 0 0'/></shape>",
      "2:1: p0 and p1 of a cylinder are the same point"},
     {"point that is a number", "<shape type='sphere'><float name='center' value='1'/></shape>",
      "2:22: 'center' must be of type <point>, not <float>"},
-    {"flat point", "<shape type='sphere'><point name='center' value='1, 2'/></shape>",
+    {"point of two numbers", "<shape type='sphere'><point name='center' value='1, 2'/></shape>",
      "2:50: '1, 2' must be three numbers"},
     {"huge sphere",
      "<shape type='sphere'><float name='radius' value='1e38'/><transform name='to_world'><scale value='10'/>"
@@ -170,7 +172,7 @@ constexpr Broken broken_scenes[] = {
      "2:20: the transform's numbers are too large"},
 };
 
-/// The message, or "no error".
+/// Returns the error message, or "no error".
 std::string error_of(const std::string& xml) {
     try {
         parse_mitsuba_xml(xml, "b.xml");
@@ -195,7 +197,7 @@ std::string scene_with(const std::string& body) {
 
 } // namespace
 
-TEST(BrokenScenes, EachHasItsMessage) {
+TEST(BrokenScenes, EachErrorHasItsMessageAndPlace) {
     for (const Broken& broken : broken_scenes) {
         const std::string message = error_of(scene_with(broken.body));
         const std::string expected = std::string("b.xml:") + broken.message;
@@ -204,7 +206,7 @@ TEST(BrokenScenes, EachHasItsMessage) {
     }
 }
 
-TEST(BrokenScenes, BrokenXml) {
+TEST(BrokenScenes, RejectsMalformedXml) {
     EXPECT_EQ(error_of("<scene>\n  <bsdf type='diffuse'>\n</scene>").substr(0, 43),
               "b.xml:3:3: the XML is broken: Start-end tag");
     EXPECT_EQ(error_of("").substr(0, 29), "b.xml:1:1: the XML is broken:");
@@ -216,7 +218,7 @@ TEST(BrokenScenes, BrokenXml) {
     EXPECT_EQ(error_of(std::string("<scene>\0</scene>", 16)).substr(0, 6), "b.xml:");
 }
 
-TEST(BrokenScenes, EveryPrefixOfASceneIsAnErrorOrAScene) {
+TEST(BrokenScenes, EveryTruncationIsAnError) {
     const std::string whole =
         scene_with("<default name='a' value='2'/><!-- c --><bsdf type='twosided' id='m'>"
                    "<bsdf type='diffuse'><rgb name='reflectance' value='#102030'/></bsdf></bsdf>"
@@ -227,12 +229,12 @@ TEST(BrokenScenes, EveryPrefixOfASceneIsAnErrorOrAScene) {
         EXPECT_EQ(error_of(whole.substr(0, length)).substr(0, 6), "b.xml:") << length;
 }
 
-TEST(BrokenScenes, LineAndCaret) {
+TEST(BrokenScenes, ErrorsShowTheLineWithACaret) {
     EXPECT_EQ(error_of("<scene version='3.0.0'>\n\t<shape type='cube'><ref id='wood'/></shape>\n</scene>"),
               "b.xml:2:30: nothing in the file has the id 'wood'\n"
               "     <shape type='cube'><ref id='wood'/></shape>\n"
               "                                 ^");
-    // A long line is cut to what is around the caret.
+    // Long lines are shortened to the text around the caret.
     const std::string message = error_of("<scene version='3.0.0'>" + std::string(1000, ' ') + "<ref/><bsdf/>" +
                                          std::string(1000, ' ') + "</scene>");
     EXPECT_LT(message.size(), 500u);
@@ -241,7 +243,7 @@ TEST(BrokenScenes, LineAndCaret) {
     EXPECT_EQ(message.substr(line + caret, 5), "<bsdf");
 }
 
-TEST(BrokenScenes, DeepNesting) {
+TEST(BrokenScenes, RejectsDeepNesting) {
     std::string deep;
     for (int i = 0; i < 100000; ++i)
         deep += "<bsdf type='twosided'>";
@@ -251,7 +253,7 @@ TEST(BrokenScenes, DeepNesting) {
     EXPECT_NE(error_of(scene_with(deep)).find("nested too deep"), std::string::npos);
 }
 
-TEST(BrokenScenes, Files) {
+TEST(BrokenScenes, ErrorsNameMissingAndBrokenFiles) {
     const TemporaryFolder folder;
     const auto path = [&](const char* name) { return (folder.path() / name).string(); };
     EXPECT_EQ(error_of_file(folder.path() / "none.xml"),
@@ -295,7 +297,7 @@ TEST(BrokenScenes, Files) {
            "2:95: cannot load 'no-image.png': it is not an OpenEXR");
 }
 
-TEST(BrokenScenes, TheFirstOfSeveralIsReported) {
+TEST(BrokenScenes, ReportsTheFirstOfSeveralErrors) {
     const TemporaryFolder folder;
     folder.write("a.obj", "v 0 0 x\n");
     folder.write("b.obj", "v 0\n");

@@ -1,4 +1,4 @@
-// Scenes whose text is broken below the level of XML, or made to blow up.
+// Scenes with broken text encoding, or with entities and variables that expand exponentially.
 
 #include "render/load/mitsuba_xml.h"
 
@@ -31,20 +31,20 @@ std::string utf16(const std::string& text, bool big_endian) {
 
 } // namespace
 
-TEST(BrokenText, AByteOrderMarkIsNoPartOfTheText) {
+TEST(BrokenText, SkipsAByteOrderMark) {
     EXPECT_EQ(parse_mitsuba_xml("\xef\xbb\xbf" + plain, "b.xml").notes.size(), 0u);
     EXPECT_EQ(error_of("\xef\xbb\xbf<scene version='x'/>").substr(0, 11), "b.xml:1:17:");
 }
 
-TEST(BrokenText, Utf16IsRefused) {
+TEST(BrokenText, RejectsUtf16) {
     for (const bool big_endian : {false, true}) {
         EXPECT_EQ(error_of(utf16(plain, big_endian)), "b.xml: the file is in UTF-16; scenes are read in UTF-8");
-        EXPECT_EQ(error_of(utf16(plain, big_endian).substr(2)), // without its mark
+        EXPECT_EQ(error_of(utf16(plain, big_endian).substr(2)), // without its byte-order mark
                   "b.xml: there are NUL bytes in the file; scenes are text in UTF-8");
     }
 }
 
-TEST(BrokenText, NulBytesAreRefused) {
+TEST(BrokenText, RejectsNulBytes) {
     std::string text = plain;
     text[30] = '\0';
     EXPECT_EQ(error_of(text), "b.xml: there are NUL bytes in the file; scenes are text in UTF-8");
@@ -62,7 +62,7 @@ TEST(BrokenText, Latin1IsConverted) {
 }
 
 TEST(BrokenText, EntitiesAreNotExpanded) {
-    // "A billion laughs": each entity is ten of the one before.
+    // The "billion laughs" attack: each entity reconstructs_components to ten copies of the previous one.
     std::string text = "<?xml version='1.0'?>\n<!DOCTYPE scene [\n<!ENTITY e0 'laugh'>\n";
     for (int i = 1; i < 10; ++i) {
         text += "<!ENTITY e" + std::to_string(i) + " '";
@@ -79,7 +79,7 @@ TEST(BrokenText, EntitiesAreNotExpanded) {
     EXPECT_EQ(loaded.description.materials.at(1).name, "&file;<");
 }
 
-TEST(BrokenText, VariablesOfVariablesAreLimited) {
+TEST(BrokenText, LimitsTheExpansionOfVariables) {
     std::string body = "<default name='v0' value='laugh'/>";
     for (int i = 1; i < 12; ++i) {
         body += "<default name='v" + std::to_string(i) + "' value='";
@@ -92,7 +92,7 @@ TEST(BrokenText, VariablesOfVariablesAreLimited) {
               std::string::npos);
 }
 
-TEST(BrokenText, Versions) {
+TEST(BrokenText, RejectsInvalidVersionsAndReportsNewerOnes) {
     EXPECT_EQ(error_of("<scene version='-1'/>").substr(0, 36), "b.xml:1:17: '-1' is not a version\n  ");
     EXPECT_EQ(error_of("<scene version=''/>").substr(0, 34), "b.xml:1:17: '' is not a version\n  ");
     const LoadedScene newer =

@@ -1,4 +1,4 @@
-// What the plugins <bsdf> mean, with their notes; then those with bad values.
+// Adapters and mixtures of <bsdf>: the materials read, the notes, and the errors of bad values.
 
 #include "tests/load/bsdf_reading.h"
 #include "tests/load/temporary_folder.h"
@@ -22,7 +22,7 @@ TEST(BsdfPlugins, Mask) {
     EXPECT_FLOAT_EQ(opacity(coloured.material), luminance(Rgb(1, 0, 0)));
     EXPECT_EQ(coloured.notes, "the coloured 'opacity' is replaced by its luminance\n");
     EXPECT_TRUE(coloured.material.two_sided);
-    // One mask in another lets through what both do.
+    // The opacities of nested masks multiply.
     EXPECT_EQ(opacity(read(around("mask", around("mask", diffuse))).material), 0.25f);
     const std::string texture = "<texture type='checkerboard' name='opacity'/>";
     const Read half = read(around("mask", around("mask", diffuse + texture)));
@@ -33,7 +33,7 @@ TEST(BsdfPlugins, Mask) {
               "the mask inside this one is left out\n");
 }
 
-TEST(BsdfPlugins, Relief) {
+TEST(BsdfPlugins, BumpAndNormalMaps) {
     const Read bump = read(around("bumpmap", diffuse + check + "<float name='scale' value='3'/>"));
     EXPECT_EQ(bump.notes, "");
     ASSERT_TRUE(bump.material.relief);
@@ -48,7 +48,7 @@ TEST(BsdfPlugins, Relief) {
     const Read both = read(around("normalmap", check + around("bumpmap", check + diffuse)));
     EXPECT_EQ(both.notes, "the bump or normal map inside this one is left out\n");
     EXPECT_EQ(both.material.relief->kind, Relief::Kind::normal_map);
-    // All adapters at once may stand in any order.
+    // Adapters can be nested together, in any order.
     const Read all = read(around("twosided", around("mask", around("bumpmap", check + diffuse))));
     EXPECT_TRUE(all.material.opacity && all.material.relief && all.material.two_sided);
     EXPECT_EQ(all.notes, "");
@@ -65,7 +65,7 @@ TEST(BsdfPlugins, AHeightMapOfGamma1IsLinear) {
     const LoadedScene loaded = load_mitsuba_xml(file);
     ASSERT_EQ(loaded.description.materials.size(), 2u);
     EXPECT_NEAR(loaded.description.materials[0].relief.value().map.evaluate({}).r, 0.2f, 1e-6f);
-    // A shape that names the nested material gets it without the bumps, as in Mitsuba.
+    // A shape that refers to the nested material gets it without bumps, as in Mitsuba.
     EXPECT_FALSE(loaded.description.materials[1].relief);
     EXPECT_EQ(loaded.description.shapes.at(0).material, 1);
 }
@@ -78,7 +78,7 @@ TEST(BsdfPlugins, Blend) {
     EXPECT_TRUE(r.material.is_transparent());
     EXPECT_FALSE(r.material.is_textured());
     EXPECT_EQ(r.notes, "");
-    // A texture for a weight, and one within a part.
+    // The weight can be textured, and so can a blended material.
     const Read textured =
         read(around("blendbsdf", "<texture type='checkerboard' name='weight'/>" + two_sided + two_sided));
     EXPECT_FLOAT_EQ(std::get<MixtureMaterial>(textured.material.kind).weight(1, {}), 0.4f);
@@ -88,8 +88,8 @@ TEST(BsdfPlugins, Blend) {
     EXPECT_TRUE(read(around("coating", around("blendbsdf", diffuse + inner))).material.is_textured());
 }
 
-/// A scene whose BSDF "bN" blends "bN-1" with itself, and so on.
-std::string blends(int levels) {
+/// Returns a scene in which each BSDF "bN" blends "bN-1" with itself, so that leaves double per level.
+std::string nested_blends(int levels) {
     std::string text = "<bsdf type='diffuse' id='b0'><float name='unheard_of' value='1'/></bsdf>";
     for (int i = 1; i <= levels; ++i) {
         const std::string ref = "<ref id='b" + std::to_string(i - 1) + "'/>";
@@ -99,15 +99,15 @@ std::string blends(int levels) {
            "'/></shape></scene>";
 }
 
-TEST(BsdfPlugins, WhatIsReferredToIsReadOnce) {
-    const LoadedScene scene = parse_mitsuba_xml(blends(6), "s.xml");
+TEST(BsdfPlugins, ReadsAReferencedBsdfOnce) {
+    const LoadedScene scene = parse_mitsuba_xml(nested_blends(6), "s.xml");
     EXPECT_EQ(std::ranges::count(scene.notes, "'unheard_of' of bsdf 'diffuse' is not used", &LoadNote::text), 1);
 }
 
-TEST(BsdfPlugins, ABlendOfMillionsIsRefused) {
+TEST(BsdfPlugins, RejectsBlendsOfMoreThan256Bsdfs) {
     for (const int levels : {9, 60})
         try {
-            parse_mitsuba_xml(blends(levels), "s.xml");
+            parse_mitsuba_xml(nested_blends(levels), "s.xml");
             FAIL() << levels;
         } catch (const LoadError& error) {
             EXPECT_NE(std::string(error.what()).find("'blendbsdf' is made of more than 256 BSDFs"),
@@ -116,16 +116,16 @@ TEST(BsdfPlugins, ABlendOfMillionsIsRefused) {
         }
 }
 
-TEST(BsdfPlugins, ParametersAreFoundHoweverManyThereAre) {
+TEST(BsdfPlugins, ReadsHundredsOfThousandsOfParameters) {
     std::string bsdf = "<bsdf type='diffuse'>";
-    for (int i = 0; i < 300000; ++i) // a look along all for each would take minutes
+    for (int i = 0; i < 300000; ++i) // a linear search for each would take minutes
         bsdf += "<float name='p" + std::to_string(i) + "' value='1'/>";
     const Read r =
         read(bsdf + "<rgb name='reflectance' value='0.25'/><rgb name='reflectance' value='0.75'/></bsdf>");
     EXPECT_EQ(std::get<Rgb>(std::get<DiffuseMaterial>(r.material.kind).reflectance.kind), Rgb(0.75f));
 }
 
-TEST(BsdfPlugins, WhatABlendDropsHasItsNote) {
+TEST(BsdfPlugins, ReportsAdaptersThatABlendLeavesOut) {
     const Read r = read(
         around("blendbsdf", around("mask", diffuse) + around("twosided", around("bumpmap", check + diffuse))));
     EXPECT_EQ(r.notes, "'twosided' around some of the materials in 'blendbsdf' is left out\n"
@@ -134,7 +134,7 @@ TEST(BsdfPlugins, WhatABlendDropsHasItsNote) {
     EXPECT_FALSE(r.material.two_sided);
     EXPECT_EQ(read(around("twosided", around("blendbsdf", diffuse + glass))).notes,
               "'twosided' has no effect on a transparent material\n");
-    // Around the whole they work.
+    // Adapters around the whole blend are applied.
     EXPECT_TRUE(read(around("mask", around("blendbsdf", two_sided + two_sided))).material.opacity);
 
     const std::string water = "<bsdf type='dielectric'><string name='int_ior' value='water'/></bsdf>";
@@ -177,7 +177,7 @@ TEST(BsdfPlugins, Coating) {
     EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(clear.material.kind));
 }
 
-TEST(BsdfPlugins, BadValues) {
+TEST(BsdfPlugins, RejectsBadValues) {
     const auto error = [](const std::string& bsdf) -> std::string {
         try {
             parse(bsdf);
@@ -249,7 +249,7 @@ TEST(BsdfPlugins, BadValues) {
         EXPECT_EQ(error(bsdf), "test.xml:" + message);
 }
 
-TEST(BsdfPlugins, UnknownOnesAreMarked) {
+TEST(BsdfPlugins, ReplacesAnUnknownBsdfByMagenta) {
     const Read r = read("<bsdf type='irawan'/>");
     EXPECT_EQ(r.notes, "the bsdf 'irawan' is not known; diffuse magenta is used instead\n");
 }

@@ -1,4 +1,4 @@
-// Materials as they are read from a <bsdf> alone, with their notes.
+// Reads a material and its notes from a <bsdf> alone.
 #pragma once
 
 #include "render/load/mitsuba_xml.h"
@@ -15,10 +15,10 @@ inline LoadedScene parse(const std::string& body, const std::string& version = "
 
 struct Read {
     Material material;
-    std::string notes; // one a line
+    std::string notes; // one per line
 };
 
-/// The one material of a scene.
+/// Reads a scene with one <bsdf> and returns its material.
 inline Read read(const std::string& bsdf, const std::string& version = "3.0.0") {
     const LoadedScene loaded = parse(bsdf, version);
     Read result{loaded.description.materials.at(0), {}};
@@ -27,7 +27,7 @@ inline Read read(const std::string& bsdf, const std::string& version = "3.0.0") 
     return result;
 }
 
-/// A <bsdf> around others.
+/// Returns a <bsdf> of this type that contains `inside`.
 inline std::string around(const std::string& type, const std::string& inside) {
     return "<bsdf type='" + type + "'>" + inside + "</bsdf>";
 }

@@ -1,4 +1,4 @@
-// What the plugins <bsdf> mean that say themselves how a surface scatters, with their notes.
+// Plugins of <bsdf> that define a scattering model: the materials read, and the notes.
 #include "tests/load/bsdf_reading.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ TEST(BsdfPlugins, RoughDiffuse) {
     EXPECT_TRUE(kind.fast);
     EXPECT_EQ(kind.reflectance, Rgb(0.5f));
     EXPECT_TRUE(std::holds_alternative<RoughDiffuse>(
-        read("<bsdf type='roughdiffuse'/>").material.resolve({}).kind)); // alpha is 0.2
+        read("<bsdf type='roughdiffuse'/>").material.resolve({}).kind)); // default alpha of 0.2
 }
 
 TEST(BsdfPlugins, RoughDielectric) {
@@ -37,7 +37,7 @@ TEST(BsdfPlugins, RoughDielectric) {
     EXPECT_FLOAT_EQ(kind.eta, 1.6f);
     EXPECT_EQ(kind.specular_transmittance, Rgb(0.5f));
     EXPECT_TRUE(r.material.is_transparent());
-    // Without a step in the index no facet is seen.
+    // Without a step in the index of refraction, the microfacets have no effect.
     const Read none = read("<bsdf type='roughdielectric'><float name='int_ior' value='1'/>"
                            "<float name='ext_ior' value='1'/></bsdf>");
     EXPECT_TRUE(std::holds_alternative<SmoothDielectric>(none.material.resolve({}).kind));
@@ -54,15 +54,15 @@ TEST(BsdfPlugins, AnisotropicRoughness) {
     EXPECT_FLOAT_EQ(std::get<RoughConductor>(bsdf.kind).facets.alpha, 0.2f);
     EXPECT_FLOAT_EQ(std::get<RoughConductor>(bsdf.kind).facets.stretch, 2);
     const std::string texture = "<texture type='checkerboard' name='alpha_v'/>";
-    const Read textured = read(around("roughdielectric", texture)); // 'alpha_u' is 0.1
+    const Read textured = read(around("roughdielectric", texture)); // default alpha_u of 0.1
     EXPECT_TRUE(textured.material.is_textured() && textured.material.is_anisotropic());
     EXPECT_FLOAT_EQ(std::get<RoughDielectric>(textured.material.resolve({}).kind).facets.alpha, 0.2f);
-    // Inside of others, and where there is nothing to it.
+    // Nested materials are anisotropic too. Equal roughnesses are isotropic.
     const std::string brushed = around("roughconductor", both);
     EXPECT_TRUE(
         read(around("coating", around("blendbsdf", diffuse + brushed)), "0.6.0").material.is_anisotropic());
-    const std::string alike = "<float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>";
-    EXPECT_FALSE(read(around("roughconductor", alike)).material.is_anisotropic());
+    const std::string equal = "<float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>";
+    EXPECT_FALSE(read(around("roughconductor", equal)).material.is_anisotropic());
     EXPECT_EQ(read(around("roughplastic", both), "0.6.0").notes,
               "the anisotropic roughness is replaced by its geometric mean\n");
 }
@@ -71,7 +71,7 @@ TEST(BsdfPlugins, Principled) {
     const Read plain = read("<bsdf type='principled'/>");
     EXPECT_EQ(plain.notes, "");
     const auto& m = std::get<PrincipledMaterial>(plain.material.kind);
-    EXPECT_NEAR(m.eta, 1.5f, 1e-6f); // specular is 0.5
+    EXPECT_NEAR(m.eta, 1.5f, 1e-6f); // default specular of 0.5
     EXPECT_EQ(m.base_color.evaluate({}), Rgb(0.5f));
     EXPECT_FALSE(plain.material.is_transparent() || plain.material.is_textured() ||
                  plain.material.is_anisotropic());
@@ -84,7 +84,7 @@ TEST(BsdfPlugins, Principled) {
     EXPECT_TRUE(clear.material.is_transparent() && clear.material.is_textured());
     EXPECT_TRUE(clear.material.is_anisotropic());
     EXPECT_FLOAT_EQ(std::get<PrincipledMaterial>(clear.material.kind).eta, 1.001f);
-    EXPECT_LT(clear.material.resolve({}).roughness(), 0.3f); // of facets
+    EXPECT_LT(clear.material.resolve({}).roughness(), 0.3f); // roughness of the microfacets
     EXPECT_EQ(kind_name(clear.material.resolve({})), "principled");
     EXPECT_EQ(read(around("twosided", "<bsdf type='principledthin'/>")).notes,
               "'twosided' has no effect on a transparent material\n");
@@ -150,16 +150,16 @@ TEST(BsdfPlugins, MediumLayer) {
     EXPECT_FLOAT_EQ(layer(r.material).scattered.r, 0.8f);
     EXPECT_FLOAT_EQ(layer(r.material).depth.r, 0.25f);
     EXPECT_EQ(layer(r.material).g, 0.5f);
-    const Read share =
+    const Read by_albedo =
         read("<bsdf type='hk'><rgb name='sigma_t' value='2'/><rgb name='albedo' value='0.9'/></bsdf>");
-    EXPECT_EQ(share.notes, "");
-    EXPECT_FLOAT_EQ(layer(share.material).scattered.r, 0.9f);
-    EXPECT_FLOAT_EQ(layer(share.material).depth.r, 2);
-    EXPECT_FLOAT_EQ(layer(read("<bsdf type='hk'/>").material).depth.r, 0.74f + 0.032f); // skin1
+    EXPECT_EQ(by_albedo.notes, "");
+    EXPECT_FLOAT_EQ(layer(by_albedo.material).scattered.r, 0.9f);
+    EXPECT_FLOAT_EQ(layer(by_albedo.material).depth.r, 2);
+    EXPECT_FLOAT_EQ(layer(read("<bsdf type='hk'/>").material).depth.r, 0.74f + 0.032f); // default medium skin1
     EXPECT_EQ(read("<bsdf type='hk'><string name='material' value='gold'/><phase type='rayleigh'/></bsdf>").notes,
               "the medium 'gold' is not known and replaced by 'skin1'\n"
               "the phase function 'rayleigh' is replaced by an isotropic one\n");
-    // Light has one direction beyond glass.
+    // A blend has one direction of transmission: that of the refracting BSDF.
     const Read both = read(around("blendbsdf", "<bsdf type='hk'/>" + glass));
     EXPECT_EQ(both.notes, "the unscattered transmission of 'hk' is left out, because another <bsdf> refracts\n");
     EXPECT_FALSE(part<MediumLayerMaterial>(both.material, 0).is_clear);
@@ -177,7 +177,7 @@ TEST(BsdfPlugins, PolarizingPlastic) {
     EXPECT_NEAR(std::get<Plastic>(bsdf.kind).base.r, 0.3f, 1e-5f);
 }
 
-TEST(BsdfPlugins, DistributionsByPowersOfCosines) {
+TEST(BsdfPlugins, ReplacesPhongAndAshikhminShirleyByBeckmann) {
     for (const std::string name : {"phong", "as"}) {
         const Read r = read("<bsdf type='roughconductor'><string name='distribution' value='" + name +
                                 "'/><float name='alpha' value='0.3'/></bsdf>",

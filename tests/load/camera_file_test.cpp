@@ -20,20 +20,20 @@ namespace {
 struct Broken {
     const char* name;
     const char* json;
-    const char* message; // after "c.json"
+    const char* message; // expected after "c.json"
 };
 
 constexpr const char* matrix = "1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1";
 
-// M stands for the unit matrix.
+// M is replaced by the identity matrix.
 constexpr Broken broken_cameras[] = {
     {"empty", "", ":1:1: the file is empty"},
     {"not closed", "{\n  \"fov\": 40,\n", ":3:1: the JSON is broken: unexpected end of input"},
     {"no comma", "{\n  \"fov\": 40\n  \"to_world\": [M]}", ":3:12: the JSON is broken: unexpected string literal"},
     {"NaN", "{\"fov\": NaN}", ":1:9: the JSON is broken: invalid literal"},
-    {"text behind", "{\"fov\": 40, \"to_world\": [M]} x", "the JSON is broken: invalid literal"},
+    {"text after the object", "{\"fov\": 40, \"to_world\": [M]} x", "the JSON is broken: invalid literal"},
     {"a list", "[1, 2]", ":1:1: a camera file holds one object {...}, not array"},
-    {"nothing in it", "{}", ":1:1: the camera has no 'to_world'"},
+    {"empty object", "{}", ":1:1: the camera has no 'to_world'"},
     {"no fov", "{\"to_world\": [M]}", ":1:1: the camera has no 'fov'"},
     {"no matrix", "{\"fov\": 40}", ":1:1: the camera has no 'to_world'"},
     {"unknown field", "{\"fov\": 40,\n \"tow_orld\": [M]}", ":2:14: unknown camera field 'tow_orld'"},
@@ -49,7 +49,7 @@ constexpr Broken broken_cameras[] = {
     {"beyond floats", "{\"to_world\": [1e39,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
      ":1:14: 'to_world' has a number that is too large"},
     {"beyond doubles", "{\"to_world\": [M],\n \"fov\": 1e999}", ":2:9: the number 1e999 is too large"},
-    {"column by column", "{\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 3,4,5,1], \"fov\": 40}",
+    {"matrix by columns", "{\"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 3,4,5,1], \"fov\": 40}",
      ":1:14: the last four numbers of 'to_world' must be 0, 0, 0, 1 (the matrix is row by row)"},
     {"singular", "{\"to_world\": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1], \"fov\": 40}",
      ":1:14: the camera's transform is flat"},
@@ -63,7 +63,7 @@ constexpr Broken broken_cameras[] = {
     {"fov in words", "{\"to_world\": [M], \"fov\": \"40\"}", "'fov' must be numeric, not string"},
     {"unknown axis", "{\"to_world\": [M], \"fov\": 40,\n\"fov_axis\": \"z\"}",
      ":2:13: 'fov_axis' must be \"x\", \"y\""},
-    {"a field's name before it", "{\"up\": \"fov\", \"to_world\": [M],\n \"fov\": 0}",
+    {"field name as a value before the field", "{\"up\": \"fov\", \"to_world\": [M],\n \"fov\": 0}",
      ":2:9: the field of view must be between 0 and 180 degrees"},
     {"orthographic in words", "{\"to_world\": [M],\n\"orthographic\": \"yes\"}",
      ":2:17: 'orthographic' must be true or false"},
@@ -80,7 +80,7 @@ constexpr Broken broken_cameras[] = {
     {"axis that is a number", "{\"to_world\": [M], \"fov\": 40,\n\"fov_axis\": 1}", ":2:13: 'fov_axis' must be"},
 };
 
-TEST(CameraFile, BrokenOnesGetAMessageWithTheirPlace) {
+TEST(CameraFile, ErrorsNameTheirLineAndColumn) {
     for (const Broken& b : broken_cameras) {
         std::string json = b.json;
         if (const std::size_t m = json.find('M'); m != std::string::npos)
@@ -105,7 +105,7 @@ TEST(CameraFile, MessagesShowTheLineWithACaret) {
     }
 }
 
-TEST(CameraFile, AbsentOnesAndFolders) {
+TEST(CameraFile, RejectsMissingFilesAndFolders) {
     const TemporaryFolder folder;
     EXPECT_THROW(read_camera(folder.path()), LoadError);
     EXPECT_THROW(read_camera(folder.path() / "none.json"), LoadError);
@@ -117,7 +117,7 @@ Camera random_camera(std::mt19937& random) {
     Camera camera;
     camera.to_world = glm::translate(glm::mat4(1), 100.0f * vector());
     camera.to_world = glm::rotate(camera.to_world, 3 * unit(random), vector());
-    camera.to_world = glm::scale(camera.to_world, {-1, 1, 1}); // as many exporters' cameras
+    camera.to_world = glm::scale(camera.to_world, {-1, 1, 1}); // mirrored, as many exporters write cameras
     camera.fov = 90 + 80 * unit(random);
     camera.fov_axis = static_cast<FovAxis>(random() % 5);
     if (random() % 2)
@@ -125,7 +125,8 @@ Camera random_camera(std::mt19937& random) {
     return camera;
 }
 
-/// One in three has a lens, one in three sees along parallel rays; these keep no field of view.
+/// Returns a camera that has a lens with probability 1/3, and is orthographic with probability 1/3. An
+/// orthographic camera has the default field of view, because files do not store it.
 Camera random_camera_of_any_kind(std::mt19937& random) {
     std::uniform_real_distribution<float> above(0.01f, 10);
     Camera camera = random_camera(random);
@@ -149,7 +150,7 @@ bool same_bits(const Camera& a, const Camera& b) {
     return std::bit_cast<std::uint32_t>(a.fov) == std::bit_cast<std::uint32_t>(b.fov) && a == b;
 }
 
-TEST(CameraFile, ComesBackBitByBit) {
+TEST(CameraFile, RoundTripIsBitExact) {
     const TemporaryFolder folder;
     std::mt19937 random(7);
     for (int i = 0; i < 1000; ++i) {
@@ -165,17 +166,17 @@ TEST(CameraFile, ComesBackBitByBit) {
     int files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
         ++files;
-    EXPECT_EQ(files, 1) << "a temporary file stays";
+    EXPECT_EQ(files, 1) << "a temporary file is left";
     EXPECT_THROW(write_camera(folder.path() / "no/such/folder/c.json", camera), std::exception);
 }
 
-TEST(CameraFile, AxisIsXIfItIsNotNamed) {
+TEST(CameraFile, FovAxisDefaultsToX) {
     std::string json = R"({"fov": 40, "to_world": [M]})";
     json.replace(json.find('M'), 1, matrix);
     EXPECT_EQ(parse_camera(json, "c.json").fov_axis, FovAxis::x);
 }
 
-/// The type of sensor that the text says it belongs to.
+/// Returns the sensor type that the comment in the text names, or perspective.
 std::string sensor_type(const std::string& xml) {
     const std::string words = "<!-- for a sensor of type ";
     if (xml.rfind(words, 0) != 0)
@@ -183,12 +184,12 @@ std::string sensor_type(const std::string& xml) {
     return xml.substr(words.size(), xml.find(" -->") - words.size());
 }
 
-TEST(CameraFile, XmlIsTheSameCameraInASceneFile) {
+TEST(CameraFile, XmlRoundTripGivesTheSameCamera) {
     std::mt19937 random(11);
     for (int i = 0; i < 100; ++i) {
         Camera camera = random_camera_of_any_kind(random);
         if (camera.is_orthographic || camera.aperture_radius > 0)
-            camera.principal_offset = glm::vec2(0); // none of Mitsuba's has both
+            camera.principal_offset = glm::vec2(0); // no Mitsuba sensor has both
         const std::string inside = camera_xml(camera);
         const std::string xml =
             "<scene version='3.0.0'><sensor type='" + sensor_type(inside) + "'>" + inside + "</sensor></scene>";

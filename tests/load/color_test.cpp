@@ -1,4 +1,4 @@
-// Colours in all spellings, spectra, and colours of meshes.
+// Colours, spectra, and mesh attributes in scene files.
 
 #include "render/load/mitsuba_xml.h"
 #include "render/load/properties.h"
@@ -64,8 +64,9 @@ TEST(Colors, SpectraBecomeColors) {
               "the spectrum is replaced by its linear sRGB colour\n");
 }
 
-/// As Mitsuba 3.9 has them in its RGB mode, but for its matching functions, which are tables.
-TEST(Colors, SpectraAreWeighedAsInMitsuba) {
+/// The expected values are Mitsuba 3.9's in RGB mode. The tolerance covers its tabulated colour matching
+/// functions.
+TEST(Colors, ConvertsSpectraAsMitsubaDoes) {
     const std::string list = "400:0.1, 500:0.5, 600:0.9, 700:0.3";
     expect_near(color("<spectrum name='reflectance' value='" + list + "'/>"), {0.8548f, 0.6875f, 0.2650f}, 0.01f);
     expect_near(radiance("<spectrum name='radiance' value='" + list + "'/>"), {0.9992f, 0.6597f, 0.2294f}, 0.01f);
@@ -91,7 +92,7 @@ TEST(Colors, SpectrumPlugins) {
 }
 
 TEST(Colors, BlackBodies) {
-    // Planck's law at 555 nm and 5000 K is 1.27e4 W / (m^2 sr nm); luminance weighs the neighbourhood of that.
+    // Planck's law gives 1.27e4 W / (m^2 sr nm) at 555 nm and 5000 K. Luminance averages around 555 nm.
     const Rgb body = rgb_of_black_body(5000);
     EXPECT_NEAR(0.2126f * body.r + 0.7152f * body.g + 0.0722f * body.b, 1.25e4f, 0.05e4f);
     EXPECT_GT(body.r, body.b);
@@ -121,7 +122,7 @@ TEST(Colors, TexturesOfTheOldSyntax) {
               0.5f * Rgb(0.2f, 0.4f, 0.6f));
 }
 
-TEST(Colors, AttributesOfMeshes) {
+TEST(Colors, MeshAttributes) {
     Mesh mesh;
     mesh.positions.resize(4);
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -144,7 +145,7 @@ TEST(Colors, AttributesOfMeshes) {
     EXPECT_EQ(loaded.notes.back().text, "the shape has no attribute 'face_x'; white is used instead");
 }
 
-TEST(Colors, OfPlyFiles) {
+TEST(Colors, VertexColorsOfPlyFiles) {
     const std::string bytes = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     expect_near(parse_ply(ply(bytes, "255 128 0")).attribute(vertex_color)->values.at(0), Rgb(1, 0.215861f, 0),
                 1e-5f);

@@ -1,4 +1,4 @@
-// Emitters of a scene, as the loader reads them.
+// Plugins of <emitter>: the lights read, the notes and the errors.
 #include "render/load/mitsuba_xml.h"
 
 #include <cmath>
@@ -56,14 +56,14 @@ TEST(EmitterPlugins, SpotFallsOffLinearlyWithTheAngle) {
     EXPECT_EQ(at(180), 0);
 }
 
-TEST(EmitterPlugins, DirectionIsTheWayOfTheLight) {
+TEST(EmitterPlugins, DirectionIsThatOfPropagation) {
     const LoadedScene loaded = load("<emitter type='directional'><vector name='direction' x='0' y='-2' z='0'/>"
                                     "<rgb name='irradiance' value='3'/></emitter>");
     EXPECT_EQ(loaded.description.directional_lights.at(0).to_light, glm::vec3(0, 1, 0));
     EXPECT_EQ(loaded.description.directional_lights.at(0).irradiance, Rgb(3));
 }
 
-// Of the cone u grows with +x, and v with +y, as in Mitsuba 3.
+// In the cone, u grows with +x and v with +y, as in Mitsuba 3.
 TEST(EmitterPlugins, SpotWithATexture) {
     const LoadedScene loaded = load("<emitter type='spot'><float name='cutoff_angle' value='40'/>"
                                     "<texture type='checkerboard' name='texture'><rgb name='color0' value='1'/>"
@@ -84,7 +84,7 @@ TEST(EmitterPlugins, SpotWithATexture) {
     EXPECT_FALSE(wide.description.point_lights.at(0).slide);
 }
 
-TEST(EmitterPlugins, ProjectorGivesAPlaneBeforeItPiTimesItsPicture) {
+TEST(EmitterPlugins, ProjectorIrradianceIsPiTimesItsPicture) {
     const LoadedScene loaded = load("<emitter type='projector'><float name='fov' value='60'/>"
                                     "<float name='scale' value='2'/><rgb name='irradiance' value='1, 2, 3'/>"
                                     "<transform name='to_world'><translate x='7'/></transform></emitter>");
@@ -99,7 +99,7 @@ TEST(EmitterPlugins, ProjectorGivesAPlaneBeforeItPiTimesItsPicture) {
     EXPECT_EQ(light.toward({0, 0, -1}), Rgb(0));
 }
 
-TEST(EmitterPlugins, ThereIsOneEnvironment) {
+TEST(EmitterPlugins, UsesOnlyTheFirstEnvironment) {
     const LoadedScene loaded = load("<emitter type='constant'><rgb name='radiance' value='0.5'/></emitter>"
                                     "<emitter type='constant'/>");
     EXPECT_EQ(loaded.description.environment.map->bitmap->floats.at(0), Rgb(0.5f));
@@ -114,7 +114,7 @@ TEST(EmitterPlugins, TexturedAreaLight) {
     EXPECT_TRUE(loaded.notes.empty());
 }
 
-TEST(EmitterPlugins, ShapeThatGivesLightIsBlackUnlessItNamesAMaterial) {
+TEST(EmitterPlugins, EmittingShapesAreBlackWithoutAMaterial) {
     const LoadedScene loaded =
         load("<shape type='rectangle'><emitter type='area'/></shape>"
              "<shape type='rectangle'/>"
@@ -152,7 +152,7 @@ TEST(EmitterPlugins, SunskyOfBothSyntaxes) {
     EXPECT_TRUE(is_black(turned.radiance({0, 0, -1})));
 }
 
-TEST(EmitterPlugins, BadValuesAreNamed) {
+TEST(EmitterPlugins, ErrorsNameBadValues) {
     const auto has = [](const char* text) { return testing::HasSubstr(text); };
     EXPECT_THAT(error_of("<emitter type='point'><rgb name='intensity' value='-1'/></emitter>"),
                 has("'intensity' must not be negative"));
@@ -179,14 +179,14 @@ TEST(EmitterPlugins, BadValuesAreNamed) {
                 has("'turbidity' must be from 1 to 10"));
 }
 
-TEST(EmitterPlugins, ScalesOfPicturesAreCutAsLightIs) {
+TEST(EmitterPlugins, ClampsTheScaleOfAProjector) {
     const LoadedScene loaded = load("<emitter type='projector'><float name='scale' value='1e20'/></emitter>");
     EXPECT_EQ(loaded.description.point_lights.at(0).intensity, Rgb(1e15f));
     ASSERT_EQ(loaded.notes.size(), 1u);
     EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'scale' is clamped to 1e15"));
 }
 
-TEST(EmitterPlugins, UnknownOnesAreMissingLight) {
+TEST(EmitterPlugins, ReportsUnknownEmitters) {
     const LoadedScene loaded = load("<emitter type='laser'/>");
     ASSERT_EQ(loaded.notes.size(), 1u);
     EXPECT_THAT(loaded.notes[0].text, testing::HasSubstr("'laser' is not known; it gives no light"));

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, gone at its end.
+/// Gives each test a folder, and deletes it at the end.
 class ImageOutput : public testing::Test {
 protected:
     ImageOutput() { fs::create_directories(folder_); }
@@ -49,11 +49,11 @@ bool same_bits(const RgbImage& a, const RgbImage& b) {
            std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
 }
 
-/// Where nothing was rendered yet: what can be written can be read again.
-TEST_F(ImageOutput, OneLimitHoldsForAllImages) {
-    const std::pair<std::int64_t, std::int64_t> fine[] = {{16384, 16384}, {32768, 8192}, {1, 32768}},
+/// The limit holds with and without a file size, so every image that can be written can be read.
+TEST_F(ImageOutput, LimitsTheSizeOfAllImages) {
+    const std::pair<std::int64_t, std::int64_t> allowed[] = {{16384, 16384}, {32768, 8192}, {1, 32768}},
                                                 too_large[] = {{16385, 16384}, {32768, 32768}, {32769, 1}};
-    for (const auto& [width, height] : fine) {
+    for (const auto& [width, height] : allowed) {
         EXPECT_NO_THROW(check_image_size(width, height));
         EXPECT_NO_THROW(check_image_size(width, height, std::uintmax_t{1} << 30));
     }
@@ -63,7 +63,7 @@ TEST_F(ImageOutput, OneLimitHoldsForAllImages) {
     }
 }
 
-TEST_F(ImageOutput, APngThatItsEncoderCannotCountIsRefused) {
+TEST_F(ImageOutput, RejectsPngsOfBadSize) {
     const std::vector<std::uint8_t> pixel(3);
     const std::string message = message_of([&] { write_png(file("a.png"), {32768, 32768}, pixel); });
     EXPECT_NE(message.find("a.png: an image of 32768 by 32768 pixels is too large"), std::string::npos) << message;
@@ -79,7 +79,7 @@ TEST_F(ImageOutput, AttributesAreReadWithoutThePixels) {
     EXPECT_EQ(read_exr_attributes(file("a.exr")).at("kind"), "picture");
 }
 
-TEST_F(ImageOutput, LayersAndAttributesComeBackBitForBit) {
+TEST_F(ImageOutput, LayersAndAttributesRoundTripBitExactly) {
     ExrFile written;
     written.layers = {{"", test::random_image(37, 23, 1)},
                       {"primal", test::random_image(37, 23, 2)},
@@ -101,8 +101,8 @@ TEST_F(ImageOutput, LayersAndAttributesComeBackBitForBit) {
     EXPECT_EQ(files_in_folder(), 1u);
 }
 
-/// Vectors and single channels keep their names and kinds; a single channel is read as grey.
-TEST_F(ImageOutput, VectorsAndSingleChannelsComeBack) {
+/// Vector and single-channel layers keep their names and kinds. A single channel is read as grey.
+TEST_F(ImageOutput, VectorAndSingleChannelLayersRoundTrip) {
     const RgbImage picture = test::random_image(9, 7, 1), normal = test::random_image(9, 7, 2),
                    numbers = test::random_image(9, 7, 3);
     write_exr(file("a.exr"),
@@ -119,25 +119,25 @@ TEST_F(ImageOutput, VectorsAndSingleChannelsComeBack) {
               std::string::npos);
 }
 
-TEST_F(ImageOutput, ReadingIsWatchedAndGivenUp) {
+TEST_F(ImageOutput, ReadingReportsProgressAndCanBeCancelled) {
     const RgbImage image = test::random_image(5, 300, 1);
     write_exr(file("a.exr"), {{{"", image}}, {}});
-    std::vector<float> shares;
-    const auto watch = [&](float share) {
-        shares.push_back(share);
+    std::vector<float> fractions;
+    const auto watch = [&](float fraction) {
+        fractions.push_back(fraction);
         return true;
     };
     EXPECT_TRUE(same_bits(read_exr(file("a.exr"), watch).layers.front().image, image));
-    EXPECT_GE(shares.size(), 3u);
-    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-    EXPECT_EQ(shares.front(), 0);
-    EXPECT_LT(shares.back(), 1);
-    const auto stop = [&](float share) { return share == 0; };
+    EXPECT_GE(fractions.size(), 3u);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_EQ(fractions.front(), 0);
+    EXPECT_LT(fractions.back(), 1);
+    const auto stop = [&](float fraction) { return fraction == 0; };
     EXPECT_NE(message_of([&] { read_exr(file("a.exr"), stop); }).find("a.exr: reading was cancelled"),
               std::string::npos);
 }
 
-TEST_F(ImageOutput, OnePixelIsAnImage) {
+TEST_F(ImageOutput, ReadsAnImageOfOnePixel) {
     write_exr(file("a.exr"), {{{"", RgbImage(1, 1, Rgb(1, 2, 3))}}, {}});
     EXPECT_EQ(read_exr(file("a.exr")).layers.front().image(0, 0), Rgb(1, 2, 3));
 }
@@ -149,25 +149,25 @@ TEST_F(ImageOutput, ReplacesAnOlderFile) {
     EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(ImageOutput, TruncatedFilesAreRefusedByName) {
+TEST_F(ImageOutput, ErrorsNameTruncatedFiles) {
     write_exr(file("a.exr"), {{{"", test::random_image(64, 64, 1)}}, {{"key", "value"}}});
     std::ifstream in(file("a.exr"), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    for (const double share : {0.0, 0.001, 0.01, 0.02, 0.1, 0.5, 0.99}) {
+    for (const double fraction : {0.0, 0.001, 0.01, 0.02, 0.1, 0.5, 0.99}) {
         std::ofstream(file("b.exr"), std::ios::binary)
-            .write(bytes.data(), static_cast<std::streamsize>(share * static_cast<double>(bytes.size())));
+            .write(bytes.data(), static_cast<std::streamsize>(fraction * static_cast<double>(bytes.size())));
         const std::string message = message_of([&] { read_exr(file("b.exr")); });
-        EXPECT_NE(message.find("b.exr"), std::string::npos) << share << ": " << message;
+        EXPECT_NE(message.find("b.exr"), std::string::npos) << fraction << ": " << message;
     }
 }
 
-TEST_F(ImageOutput, MissingAndForeignFilesAreRefusedByName) {
+TEST_F(ImageOutput, ErrorsNameMissingAndForeignFiles) {
     EXPECT_NE(message_of([&] { read_exr(file("none.exr")); }).find("none.exr"), std::string::npos);
     std::ofstream(file("text.exr")) << "this is no image at all, but it has a few bytes";
     EXPECT_NE(message_of([&] { read_exr(file("text.exr")); }).find("text.exr"), std::string::npos);
 }
 
-TEST_F(ImageOutput, UnwritablePathsAreRefusedByNameAndLeaveNothing) {
+TEST_F(ImageOutput, ErrorsNameUnwritablePathsAndLeaveNoFile) {
     const RgbImage image(4, 4);
     fs::create_directories(file("taken.exr") / "inside");
     for (const char* name : {"no/such/folder/a.exr", "taken.exr"}) {
@@ -177,14 +177,14 @@ TEST_F(ImageOutput, UnwritablePathsAreRefusedByNameAndLeaveNothing) {
     EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(ImageOutput, RefusesLayersOfDifferentSizesAndNone) {
+TEST_F(ImageOutput, RejectsLayersOfDifferentSizesAndNoLayers) {
     EXPECT_THROW(write_exr(file("a.exr"), {{{"", RgbImage(4, 4)}, {"dx", RgbImage(5, 4)}}, {}}),
                  std::runtime_error);
     EXPECT_THROW(write_exr(file("a.exr"), {}), std::runtime_error);
     EXPECT_EQ(files_in_folder(), 0u);
 }
 
-TEST_F(ImageOutput, PngIsWrittenWhole) {
+TEST_F(ImageOutput, WritesACompletePng) {
     write_png(file("a.png"), RgbImage(16, 9, Rgb(0.5f)), 1);
     std::ifstream in(file("a.png"), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};

@@ -1,4 +1,4 @@
-// Files that promise more than there is memory for: they are refused with the figures, before any is taken.
+// Files that need more memory than is available are refused before allocation, and the message states the sizes.
 
 #include "render/io/available_memory.h"
 #include "render/load/plugins.h"
@@ -18,12 +18,12 @@ namespace {
 
 using test::MemoryLimit;
 
-constexpr rlim_t little = 20 << 20;
+constexpr rlim_t available_bytes = 20 << 20;
 
-/// What it says where it asks for more memory than there is.
+/// Returns the message of the OutOfMemory error that `read` throws under a memory limit, or "not refused".
 std::string refusal(const std::function<void()>& read) {
     try {
-        const MemoryLimit limit(little);
+        const MemoryLimit limit(available_bytes);
         read();
     } catch (const OutOfMemory& error) {
         return error.what();
@@ -45,7 +45,7 @@ TEST_F(HugeFile, PlyOfFourBillionVertices) {
         "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
         "property float y\nproperty float z\nend_header\n";
     const std::filesystem::path file = folder.write("huge.ply", header);
-    std::filesystem::resize_file(file, header.size() + 48'000'000'000); // a hole: it takes no disk
+    std::filesystem::resize_file(file, header.size() + 48'000'000'000); // a sparse file, which takes no disk space
     EXPECT_EQ(refusal([&] { read_ply(file); }).find("its 4000000000 vertices need 89.4 GiB of memory, and "), 0u);
 }
 
@@ -79,8 +79,8 @@ TEST_F(HugeFile, Obj) {
 
 TEST_F(HugeFile, Texture) {
     std::string tga(18 + 1'000'000, '\0');
-    tga[2] = 10;                                // true colour, in runs
-    tga[12] = tga[14] = static_cast<char>(160); // 4000 x 4000
+    tga[2] = 10;                                // true colour, run-length encoded
+    tga[12] = tga[14] = static_cast<char>(160); // width and height of 4000, lower bytes
     tga[13] = tga[15] = 15;
     tga[16] = 24;
     EXPECT_EQ(refusal([&] {

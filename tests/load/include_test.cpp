@@ -1,4 +1,4 @@
-// Scenes of several files: <include>, <path>, and where files are looked for.
+// Scenes of several files: <include>, <path>, and the search for files.
 
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
@@ -23,7 +23,7 @@ class Include : public testing::Test {
 protected:
     std::string path(const std::string& name) const { return (folder.path() / name).string(); }
 
-    /// Writes a.xml and loads it.
+    /// Writes a scene with this body to a.xml and loads it.
     LoadedScene load(const std::string& body, const SceneVariables& variables = {}) const {
         return load_mitsuba_xml(folder.write("a.xml", scene_with(body)), variables, serial_for, nullptr, true);
     }
@@ -46,7 +46,7 @@ protected:
 
 } // namespace
 
-TEST_F(Include, ElementsTakeThePlaceOfTheInclude) {
+TEST_F(Include, ElementsReplaceTheInclude) {
     folder.write("parts/materials.xml", scene_with("<bsdf type='diffuse' id='wood'/>"));
     folder.write("parts/shape.xml", "<shape type='cube'><include filename='../ref.xml'/></shape>");
     folder.write("ref.xml", "<ref id='wood'/>");
@@ -58,7 +58,7 @@ TEST_F(Include, ElementsTakeThePlaceOfTheInclude) {
     EXPECT_EQ(loaded.description.shapes[0].material, 0);
 }
 
-TEST_F(Include, VariablesGoInAndComeOut) {
+TEST_F(Include, SharesVariablesInBothDirections) {
     folder.write("settings.xml", scene_with("<default name='depth' value='7'/><default name='w' value='$base'/>"));
     const std::string body = "<default name='base' value='32'/><default name='file' value='settings'/>"
                              "<include filename='$file.xml'/>"
@@ -70,9 +70,9 @@ TEST_F(Include, VariablesGoInAndComeOut) {
     EXPECT_EQ(load(body, {{"depth", "9"}}).description.max_depth, 9);
 }
 
-TEST_F(Include, FilesAreFoundBesideWhatNamesThemThenInPathsThenBesideTheScene) {
+TEST_F(Include, SearchesTheIncludingFolderThenPathsThenTheSceneFolder) {
     folder.write("near/one.obj", triangle);
-    folder.write("one.obj", "nonsense 1\nv x\n"); // not this one
+    folder.write("one.obj", "nonsense 1\nv x\n"); // broken, and must not be found
     folder.write("far/two.obj", triangle);
     folder.write("three.obj", triangle);
     folder.write("near/b.xml", scene_with("<path value='../far'/>" + obj("one.obj") + obj("two.obj") +
@@ -97,12 +97,12 @@ TEST_F(Include, MessagesNameTheIncludedFile) {
     expect_error("<include filename='b.xml'/>", path("b.xml") + ":2:50: there is no file ");
     folder.write("b.xml", scene_with("<bsdf type='velvet'/>"));
     const LoadedScene loaded = load("<shape type='torus'/>\n<include filename='b.xml'/>\n<shape type='knot'/>");
-    ASSERT_EQ(loaded.notes.size(), 4u); // the scene's own come first
+    ASSERT_EQ(loaded.notes.size(), 4u); // notes of the including file come first
     EXPECT_EQ(loaded.notes[3].where.to_string(), path("b.xml") + ":2:1");
     EXPECT_EQ(loaded.notes[2].where.line, 4);
 }
 
-TEST_F(Include, CirclesAreErrors) {
+TEST_F(Include, RejectsCircularIncludes) {
     expect_error("<include filename='a.xml'/>", path("a.xml") + ":2:20: a circle of files: " + path("a.xml") +
                                                     " includes " + path("a.xml") + "\n");
     folder.write("b.xml", scene_with("<include filename='./c.xml'/>"));
@@ -113,14 +113,14 @@ TEST_F(Include, CirclesAreErrors) {
     EXPECT_NE(message.find("c.xml includes "), std::string::npos) << message;
 }
 
-TEST_F(Include, DepthAndNumberAreLimited) {
-    for (int i = 0; i < 20; ++i) // each includes the next one
+TEST_F(Include, LimitsTheDepthAndNumberOfFiles) {
+    for (int i = 0; i < 20; ++i) // each file includes the next one
         folder.write("d" + std::to_string(i) + ".xml",
                      scene_with("<include filename='d" + std::to_string(i + 1) + ".xml'/>"));
     expect_error("<include filename='d0.xml'/>",
                  path("d14.xml") + ":2:20: files include each other more than 15 deep");
     folder.write("e0.xml", scene_with(""));
-    for (int i = 1; i < 15; ++i) { // 4^14 files
+    for (int i = 1; i < 15; ++i) { // up to 4^14 files are included
         std::string four;
         for (int j = 0; j < 4; ++j)
             four += "<include filename='e" + std::to_string(i - 1) + ".xml'/>";
@@ -129,7 +129,7 @@ TEST_F(Include, DepthAndNumberAreLimited) {
     EXPECT_NE(error_of("<include filename='e14.xml'/>").find("more than 10000 included files"), std::string::npos);
 }
 
-TEST_F(Include, WhatIsNoFile) {
+TEST_F(Include, RejectsBadFileNames) {
     expect_error("<include/>", path("a.xml") + ":2:1: <include> needs the attribute 'filename'");
     expect_error("<include filename=''/>", path("a.xml") + ":2:20: '' is not a file name");
     expect_error("<include filename='none.xml'/>",
@@ -145,8 +145,8 @@ TEST_F(Include, WhatIsNoFile) {
     }
 }
 
-/// What an element means depends on the version: of the scene, not of the file it stands in.
-TEST_F(Include, AnIncludedFileIsOfTheVersionOfTheOneThatIncludesIt) {
+/// The version of the scene decides what an element means, not the version of the included file.
+TEST_F(Include, IncludedFilesTakeTheVersionOfTheScene) {
     const std::string shape = "<shape type='rectangle'><transform name='to_world'><rotate y='2' angle='90'/>"
                               "</transform></shape>";
     folder.write("b.xml", scene_with(shape));
@@ -156,10 +156,11 @@ TEST_F(Include, AnIncludedFileIsOfTheVersionOfTheOneThatIncludesIt) {
     const LoadedScene loaded = load_mitsuba_xml(folder.write("old.xml", old), {}, serial_for, nullptr, true);
     ASSERT_EQ(loaded.description.shapes.size(), 3u);
     for (const Shape& s : loaded.description.shapes)
-        EXPECT_EQ(s.mesh.positions, loaded.description.shapes.back().mesh.positions); // not stretched
+        EXPECT_EQ(s.mesh.positions,
+                  loaded.description.shapes.back().mesh.positions); // the rotation does not stretch
 }
 
-TEST_F(Include, AnotherVersionInsideHasANote) {
+TEST_F(Include, ReportsAnIncludedFileOfAnotherVersion) {
     folder.write("b.xml", "<scene version='0.6.0'><bsdf type='diffuse'/></scene>");
     const LoadedScene loaded = load("<sensor type='perspective'/><include filename='b.xml'/>");
     ASSERT_EQ(loaded.notes.size(), 1u);

@@ -28,7 +28,7 @@ std::string error_of(const std::string& body) {
 constexpr const char* group = "<shape type='shapegroup' id='g'><shape type='cube'><bsdf type='diffuse'/></shape>"
                               "<shape type='sphere'/></shape>";
 
-TEST(InstancePlugin, GroupsAreHeldOnce) {
+TEST(InstancePlugin, InstancesShareOneGroup) {
     const LoadedScene loaded =
         parse(std::string("<shape type='instance'><ref id='g'/><transform name='to_world'><translate x='2'/>"
                           "</transform></shape>") +
@@ -44,7 +44,7 @@ TEST(InstancePlugin, GroupsAreHeldOnce) {
     EXPECT_EQ(scene.instances[1].to_world, glm::mat4(1));
 }
 
-TEST(InstancePlugin, OldSpellingAndGroupsWithinInstances) {
+TEST(InstancePlugin, AcceptsTheOldSpellingAndGroupsWithinInstances) {
     const LoadedScene loaded =
         parse(std::string("<shape type='instance'><transform name='toWorld'><scale value='3'/>"
                           "</transform>") +
@@ -55,7 +55,7 @@ TEST(InstancePlugin, OldSpellingAndGroupsWithinInstances) {
     EXPECT_EQ(loaded.description.instances[0].to_world[1].y, 3);
 }
 
-TEST(InstancePlugin, RefusesWhatMitsubaRefuses) {
+TEST(InstancePlugin, RejectsInvalidGroupsAndInstances) {
     using testing::HasSubstr;
     EXPECT_THAT(
         error_of("<shape type='shapegroup' id='g'><shape type='cube'><emitter type='area'/></shape></shape>"),

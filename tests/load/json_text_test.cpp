@@ -23,7 +23,7 @@ std::string found(std::string_view path) {
     return value;
 }
 
-TEST(JsonText, WhatIsNotUtf8IsReplaced) {
+TEST(JsonText, ReplacesInvalidUtf8) {
     const nlohmann::json value{{"scene", "sc\xe8ne.xml"}};
     EXPECT_EQ(to_text(value), "{\"scene\":\"sc\xef\xbf\xbdne.xml\"}");
     EXPECT_EQ(to_text(nlohmann::ordered_json(value), 1), "{\n \"scene\": \"sc\xef\xbf\xbdne.xml\"\n}");
@@ -40,20 +40,20 @@ TEST(JsonText, FindsValuesByTheirPaths) {
     EXPECT_EQ(nlohmann::json::parse(found("")), nlohmann::json::parse(text));
 }
 
-TEST(JsonText, OfWhatIsNotThereTheInnermostAround) {
+TEST(JsonText, FindsTheInnermostParentOfAMissingValue) {
     EXPECT_EQ(found("d/x"), R"({ "a":true , "e" : null })");
     EXPECT_EQ(found("a/9/b"), R"([1, {"b": "}]\"", "c" :-2.5e3}, [[], 7]])");
     EXPECT_EQ(found("a/0/b"), "1");
 }
 
-TEST(JsonText, OnlyKeepsPlaces) {
+TEST(JsonText, OnlyKeepsTheOffsetOfAValue) {
     const JsonText json(text, name);
     const std::string only = json.only("d/e");
     EXPECT_EQ(only.size(), text.size());
     EXPECT_EQ(only.find("null"), text.find("null"));
 }
 
-TEST(JsonText, WhatIsNestedTooDeepIsRefused) {
+TEST(JsonText, RejectsDeepNesting) {
     const std::string fine = std::string(100, '[') + std::string(100, ']'),
                       in_quotes = '"' + std::string(500, '[') + '"';
     EXPECT_NO_THROW(JsonText(fine, name).parse());

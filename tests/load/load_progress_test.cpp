@@ -34,7 +34,7 @@ TEST(LoadProgress, CountsFiles) {
                                               "meshes and textures, 2 of 2"}));
 }
 
-TEST(LoadProgress, GivenUpBetweenFiles) {
+TEST(LoadProgress, StopsBetweenFilesWhenCancelled) {
     const TemporaryFolder folder;
     folder.write("a.obj", mesh);
     folder.write("b.obj", mesh);

@@ -1,4 +1,4 @@
-// What a well-formed scene means: spellings, defaults, transforms, references.
+// Well-formed scenes: spellings, defaults, transforms and references.
 
 #include "render/load/mitsuba_xml.h"
 #include "tests/load/temporary_folder.h"
@@ -31,8 +31,8 @@ std::string all(const LoadedScene& loaded) {
     return result;
 }
 
-/// A rectangle's corner (-1, -1, 0) under a transform.
-glm::vec3 corner_under(const std::string& steps) {
+/// Returns the corner (-1, -1, 0) of a rectangle after a transform with these steps.
+glm::vec3 transformed_corner(const std::string& steps) {
     const auto loaded =
         parse("<shape type='rectangle'><transform name='to_world'>" + steps + "</transform></shape>");
     return loaded.description.shapes.at(0).mesh.positions.at(0);
@@ -56,7 +56,7 @@ void expect_near(glm::vec3 a, glm::vec3 b) {
 
 } // namespace
 
-TEST(MitsubaXml, BothSpellings) {
+TEST(MitsubaXml, AcceptsBothSpellings) {
     const char* old_spelling = "<integrator type='path'><integer name='maxDepth' value='7'/></integrator>"
                                "<sensor type='perspective'><float name='fov' value='40'/>"
                                "<string name='fovAxis' value='y'/>"
@@ -80,31 +80,31 @@ TEST(MitsubaXml, BothSpellings) {
 }
 
 TEST(MitsubaXml, StepsOfATransformApplyInOrder) {
-    expect_near(corner_under("<translate x='1' y='1'/><scale x='2' y='3' z='4'/>"), {0, 0, 0});
-    expect_near(corner_under("<scale x='2' y='3'/><translate x='1' y='1' z='5'/>"), {-1, -2, 5});
-    expect_near(corner_under("<scale value='2'/>"), {-2, -2, 0});
-    expect_near(corner_under("<scale value='2 3 4'/><translate value='1, 1, 1'/>"), {-1, -2, 1});
-    expect_near(corner_under("<rotate z='1' angle='90'/><translate x='1'/>"), {2, -1, 0});
-    expect_near(corner_under("<rotate value='0 0 2' angle='90'/>"), {2, -2, 0}); // as in Mitsuba 3
-    expect_near(corner_under("<matrix value='1 0 0 5  0 1 0 6  0 0 1 7  0 0 0 1'/>"), {4, 5, 7});
-    expect_near(corner_under("<matrix value='1 0 0 0 1 0 0 0 1'/><scale x='3'/>"), {-3, -1, 0});
-    // lookat: +z of the shape goes toward the target, +x to the left.
-    expect_near(corner_under("<lookat origin='0,0,5' target='0,0,0' up='0,1,0'/>"), {1, -1, 5});
-    expect_near(corner_under("<look_at origin='5,0,0' target='9,0,0' up='0,0,1'/>"), {5, -1, -1});
-    expect_near(corner_under(""), {-1, -1, 0});
+    expect_near(transformed_corner("<translate x='1' y='1'/><scale x='2' y='3' z='4'/>"), {0, 0, 0});
+    expect_near(transformed_corner("<scale x='2' y='3'/><translate x='1' y='1' z='5'/>"), {-1, -2, 5});
+    expect_near(transformed_corner("<scale value='2'/>"), {-2, -2, 0});
+    expect_near(transformed_corner("<scale value='2 3 4'/><translate value='1, 1, 1'/>"), {-1, -2, 1});
+    expect_near(transformed_corner("<rotate z='1' angle='90'/><translate x='1'/>"), {2, -1, 0});
+    expect_near(transformed_corner("<rotate value='0 0 2' angle='90'/>"), {2, -2, 0}); // as in Mitsuba 3
+    expect_near(transformed_corner("<matrix value='1 0 0 5  0 1 0 6  0 0 1 7  0 0 0 1'/>"), {4, 5, 7});
+    expect_near(transformed_corner("<matrix value='1 0 0 0 1 0 0 0 1'/><scale x='3'/>"), {-3, -1, 0});
+    // lookat maps +z of the shape towards the target, and +x to the left.
+    expect_near(transformed_corner("<lookat origin='0,0,5' target='0,0,0' up='0,1,0'/>"), {1, -1, 5});
+    expect_near(transformed_corner("<look_at origin='5,0,0' target='9,0,0' up='0,0,1'/>"), {5, -1, -1});
+    expect_near(transformed_corner(""), {-1, -1, 0});
 }
 
 TEST(MitsubaXml, FrontOfARectangle) {
     expect_near(front_of(""), {0, 0, 1});
     expect_near(front_of("<boolean name='flip_normals' value='true'/>"), {0, 0, -1});
     expect_near(front_of("<boolean name='flipNormals' value='true'/>"), {0, 0, -1});
-    // Normals go with the inverse transpose: a mirror image along x leaves +z where it is.
+    // Normals transform by the inverse transpose, so mirroring along x keeps +z.
     expect_near(front_of("<transform name='to_world'><scale x='-1'/></transform>"), {0, 0, 1});
     expect_near(front_of("<transform name='to_world'><scale z='-1'/></transform>"), {0, 0, -1});
     expect_near(front_of("<transform name='to_world'><scale z='0'/></transform>"), {0, 0, 1});
 }
 
-TEST(MitsubaXml, CubeLooksOutward) {
+TEST(MitsubaXml, CubeFacesPointOutward) {
     for (const char* transform : {"", "<transform name='to_world'><scale x='-2' y='3'/></transform>"}) {
         const auto loaded = parse(std::string("<shape type='cube'>") + transform + "</shape>");
         const Mesh& mesh = loaded.description.shapes.at(0).mesh;
@@ -118,11 +118,11 @@ TEST(MitsubaXml, CubeLooksOutward) {
             const glm::vec2 b = mesh.uvs[t.z] - mesh.uvs[t.x];
             area += std::abs(a.x * b.y - a.y * b.x) / 2;
         }
-        EXPECT_FLOAT_EQ(area, 6); // every face fills the unit square
+        EXPECT_FLOAT_EQ(area, 6); // the UVs of each face cover the unit square
     }
 }
 
-TEST(MitsubaXml, VariablesReachTypesAndParts) {
+TEST(MitsubaXml, ExpandsVariablesInTypesAndPartsOfValues) {
     const std::string body = "<default name='kind' value='sppm'/><default name='depth' value='3'/>"
                              "<default name='w' value='8'/>"
                              "<integrator type='$kind'><integer name='max_depth' value='$depth'/></integrator>"
@@ -138,7 +138,7 @@ TEST(MitsubaXml, VariablesReachTypesAndParts) {
     EXPECT_THROW(parse(body), LoadError);
 }
 
-TEST(MitsubaXml, UnlimitedDepth) {
+TEST(MitsubaXml, LimitsMaxDepthTo64) {
     EXPECT_EQ(parse("<integrator type='path'/>").description.max_depth, 65);
     EXPECT_EQ(all(parse("<integrator type='path'><integer name='max_depth' value='64'/></integrator>"))
                   .find("max_depth"),
@@ -146,11 +146,11 @@ TEST(MitsubaXml, UnlimitedDepth) {
     EXPECT_NE(all(parse("<integrator type='path'><integer name='max_depth' value='65'/></integrator>"))
                   .find("max_depth 65 is reduced to 64"),
               std::string::npos)
-        << "as deep as no path is here";
+        << "65 exceeds the limit of 64";
     EXPECT_EQ(
         parse("<integrator type='path'><integer name='max_depth' value='-1'/></integrator>").description.max_depth,
         65);
-    // Integrators that hold another.
+    // The depth of a nested integrator counts.
     EXPECT_EQ(parse("<integrator type='aov'><integrator type='path'><integer name='max_depth' value='4'/>"
                     "</integrator></integrator>")
                   .description.max_depth,
@@ -164,12 +164,12 @@ TEST(MitsubaXml, Camera) {
     EXPECT_EQ(camera("<float name='fov' value='30'/>").fov_axis, FovAxis::x);
     EXPECT_EQ(camera("<float name='fov' value='30'/><string name='fov_axis' value='larger'/>").fov_axis,
               FovAxis::larger);
-    EXPECT_EQ(camera("").fov_axis, FovAxis::diagonal); // 50 mm
+    EXPECT_EQ(camera("").fov_axis, FovAxis::diagonal); // the default focal length of 50 mm is diagonal
     EXPECT_NEAR(camera("").fov, 46.79f, 0.01f);
     EXPECT_NEAR(camera("<string name='focal_length' value='25mm'/>").fov, 81.74f, 0.01f);
 }
 
-TEST(MitsubaXml, CamerasOfOtherKinds) {
+TEST(MitsubaXml, OtherSensors) {
     const auto load = [](const std::string& type, const std::string& body) {
         return parse("<sensor type='" + type + "'>" + body + "</sensor>", "2.0.0");
     };
@@ -213,7 +213,7 @@ TEST(MitsubaXml, Conductors) {
     EXPECT_EQ(relative.k, Rgb(3));
     EXPECT_EQ(relative.specular_reflectance.evaluate({}), Rgb(0.5f));
 
-    // 0.6 has copper in air for a default, 3 a mirror.
+    // The default is copper in air in version 0.6, and a perfect mirror in version 3.
     EXPECT_NEAR(material<ConductorMaterial>("<bsdf type='conductor'/>", "0.6.0").k.r, 3.912948f / 1.000277f,
                 1e-4f);
     EXPECT_EQ(material<ConductorMaterial>("<bsdf type='conductor'/>").k, Rgb(1));
@@ -281,15 +281,15 @@ TEST(MitsubaXml, TexturesByReference) {
         "<texture type='checkerboard' id='t'><rgb name='color0' value='0.9'/><rgb name='color1' value='0.1'/>"
         "<transform name='to_uv'><scale x='2' y='2'/><translate x='0.5'/></transform></texture>"
         "<bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>");
-    EXPECT_EQ(diffuse.reflectance.evaluate({{0.1f, 0.1f}}), Rgb(0.1f)); // (0.7, 0.2) of the pattern
-    EXPECT_EQ(diffuse.reflectance.evaluate({{0.3f, 0.1f}}), Rgb(0.9f)); // (0.1, 0.2)
+    EXPECT_EQ(diffuse.reflectance.evaluate({{0.1f, 0.1f}}), Rgb(0.1f)); // at (0.7, 0.2) of the pattern
+    EXPECT_EQ(diffuse.reflectance.evaluate({{0.3f, 0.1f}}), Rgb(0.9f)); // at (0.1, 0.2)
     const auto planar = material<DiffuseMaterial>(
         "<bsdf type='diffuse'><texture name='reflectance' type='checkerboard'>"
         "<transform name='to_uv'><matrix value='2 0 0.5  0 2 0  0 0 1'/></transform></texture></bsdf>");
     EXPECT_EQ(planar.reflectance.evaluate({{0.1f, 0.1f}}), Rgb(0.2f));
 }
 
-TEST(MitsubaXml, EverythingNotUsedHasANote) {
+TEST(MitsubaXml, ReportsEverythingThatIsNotUsed) {
     const LoadedScene loaded = parse_mitsuba_xml("<scene version='3.0.0'>\n"
                                                  "  <bsdf type='velvet'/>\n"
                                                  "  <bsdf type='diffuse'><float name='shine' value='1'/></bsdf>\n"
@@ -313,7 +313,7 @@ TEST(MitsubaXml, EverythingNotUsedHasANote) {
     EXPECT_EQ(magenta.reflectance.evaluate({}), Rgb(1, 0, 1));
 }
 
-TEST(MitsubaXml, OfTwosWhereOneHasAMeaningTheFirstCounts) {
+TEST(MitsubaXml, UsesOnlyTheFirstOfDuplicateElements) {
     const auto loaded =
         parse("<integrator type='path'><integer name='max_depth' value='3'/></integrator>\n"
               "<integrator type='path'><integer name='max_depth' value='5'/></integrator>\n"
@@ -337,10 +337,10 @@ TEST(MitsubaXml, OfTwosWhereOneHasAMeaningTheFirstCounts) {
                            "test.xml:8:1: only the first <bsdf> in 'rectangle' is used\n");
 }
 
-/// The numbers are Mitsuba 3.9's.
-TEST(MitsubaXml, AnAxisThatIsNotOfUnitLengthStretchesInVersion3) {
-    const std::string steps = "<translate x='3' y='4' z='5'/><rotate y='2' angle='30'/>"; // of (-1, -1, 0)
-    const glm::vec3 stretched = corner_under(steps);
+/// The expected values are Mitsuba 3.9's.
+TEST(MitsubaXml, RotationAboutAnUnnormalisedAxisStretchesInVersion3) {
+    const std::string steps = "<translate x='3' y='4' z='5'/><rotate y='2' angle='30'/>"; // applied to (-1, -1, 0)
+    const glm::vec3 stretched = transformed_corner(steps);
     EXPECT_NEAR(stretched.x, 0.866025f * 2 + 5, 1e-4f);
     EXPECT_NEAR(stretched.y, 1.40192f * 3, 1e-4f);
     EXPECT_NEAR(stretched.z, -2 + 0.866025f * 5, 1e-4f);
@@ -352,7 +352,7 @@ TEST(MitsubaXml, AnAxisThatIsNotOfUnitLengthStretchesInVersion3) {
 TEST(MitsubaXml, FilesAreFoundBesideTheScene) {
     const TemporaryFolder folder;
     folder.write("a/models/one two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
-    // A 2 x 1 image: red, blue.
+    // An image of 2 x 1 pixels: red, blue.
     folder.write("a/t.tga", tga_row(std::string("\0\0\xff\xff\0\0", 6)));
     const auto scene = folder.write(
         "a/scene.xml",
@@ -365,13 +365,13 @@ TEST(MitsubaXml, FilesAreFoundBesideTheScene) {
         "value='t.tga'/><boolean name='raw' value='true'/></texture></bsdf></scene>");
     const LoadedScene loaded = load_mitsuba_xml(scene);
     const Mesh& mesh = loaded.description.shapes.at(0).mesh;
-    EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}})); // v counts from the top
+    EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}})); // v grows downwards in Tessera
     EXPECT_EQ(mesh.normals.size(), 3u);                                    // computed
     const auto texture = [&](std::size_t i) {
         const auto& diffuse = std::get<DiffuseMaterial>(loaded.description.materials.at(i).kind);
         return std::get<BitmapTexture>(diffuse.reflectance.kind);
     };
-    EXPECT_EQ(texture(0).bitmap, texture(1).bitmap); // read once
+    EXPECT_EQ(texture(0).bitmap, texture(1).bitmap); // the file is read once
     EXPECT_EQ(texture(1).filter, Filter::nearest);
     EXPECT_FALSE(texture(2).bitmap->srgb);
     EXPECT_EQ(texture(0).bitmap->texel(0, 0), Rgb(1, 0, 0));

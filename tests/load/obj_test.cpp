@@ -36,16 +36,16 @@ TEST(Obj, PolygonsBecomeFans) {
     EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
 }
 
-TEST(Obj, IndicesCountFromEitherEnd) {
+TEST(Obj, IndicesCountFromBothEnds) {
     const Mesh mesh = parse_obj(square + "f -4//-1 -3//-1 -2//-1\nf 1 3 4\n");
     ASSERT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.positions[mesh.triangles[0].z], glm::vec3(1, 1, 0));
-    // The same position with and without a normal makes two vertices.
+    // A position used with and without a normal becomes two vertices.
     EXPECT_EQ(mesh.positions.size(), 6u);
     EXPECT_NE(mesh.triangles[1].x, mesh.triangles[0].x);
 }
 
-TEST(Obj, AnyNumberOfCorners) {
+TEST(Obj, ReadsPolygonsOfManyCorners) {
     std::string text;
     std::string face = "f";
     for (int i = 0; i < 1000; ++i) {
@@ -55,7 +55,7 @@ TEST(Obj, AnyNumberOfCorners) {
     EXPECT_EQ(parse_obj(text + face + "\n").triangles.size(), 998u);
 }
 
-TEST(Obj, Errors) {
+TEST(Obj, ReportsErrors) {
     EXPECT_EQ(error_of(square + "f 1 2 5\n"), "face 1 refers to position 5, but there are 4 before it");
     EXPECT_EQ(error_of(square + "f 1 2 0\n"), "face 1 refers to position 0, but there are 4 before it");
     EXPECT_EQ(error_of(square + "f 1 2 -5\n"), "face 1 refers to position -5, but there are 4 before it");
@@ -68,7 +68,7 @@ TEST(Obj, Errors) {
     EXPECT_EQ(error_of(""), "no error");
 }
 
-TEST(Obj, TruncatedAnywhereItThrowsOrLoads) {
+TEST(Obj, EveryTruncationThrowsOrLoads) {
     const std::string whole = square + "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
     for (std::size_t length = 0; length <= whole.size(); ++length) {
         const Mesh mesh = [&] {
@@ -83,7 +83,7 @@ TEST(Obj, TruncatedAnywhereItThrowsOrLoads) {
     }
 }
 
-TEST(MeshTools, NormalsMoveWithTheInverseTranspose) {
+TEST(MeshTools, NormalsTransformByTheInverseTranspose) {
     Mesh mesh = parse_obj("v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n");
     MeshPlacement placement;
     placement.to_world[0][0] = 4; // stretched along x
@@ -92,18 +92,18 @@ TEST(MeshTools, NormalsMoveWithTheInverseTranspose) {
     EXPECT_NEAR(glm::dot(mesh.normals[0], expected), 1, 1e-6);
     EXPECT_NEAR(glm::dot(front_normal(mesh, mesh.triangles[0]), expected), 1, 1e-6);
 
-    placement.to_world[0][0] = -4; // and mirrored: outside stays outside
+    placement.to_world[0][0] = -4; // stretched and mirrored, which keeps the outside outside
     mesh = parse_obj("v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n");
     place_mesh(mesh, placement);
     EXPECT_NEAR(glm::dot(front_normal(mesh, mesh.triangles[0]), glm::normalize(glm::vec3(-0.25f, 0, 1))), 1, 1e-6);
 }
 
-TEST(MeshTools, NormalsAreComputedWhereTheFileHasNone) {
+TEST(MeshTools, ComputesMissingNormals) {
     const std::string roof = "v 0 0 0\nv 0 1 0\nv -1 0 -1\nv -1 1 -1\nv 1 0 -1\nv 1 1 -1\n"
-                             "f 1 2 4 3\nf 2 1 5 6\n"; // along y, the ridge on top
+                             "f 1 2 4 3\nf 2 1 5 6\n"; // a roof whose ridge, on top, is along y
     Mesh mesh = parse_obj(roof);
     EXPECT_EQ(place_mesh(mesh, {}), "");
-    EXPECT_NEAR(mesh.normals[0].z, 1, 1e-6); // at the ridge, between both sides
+    EXPECT_NEAR(mesh.normals[0].z, 1, 1e-6); // at the ridge, the mean of both sides
     EXPECT_NEAR(mesh.normals[2].x, -std::sqrt(0.5f), 1e-6);
 
     mesh = parse_obj(roof);

@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-/// The contents of a PFM file: colour, or the red channel as grey.
+/// Returns the contents of a PFM file with 3 channels, or with the red channel alone as grey.
 inline std::string pfm_bytes(const RgbImage& image, int channels = 3, bool is_little_endian = true) {
     std::string bytes = (channels == 3 ? "PF\n" : "Pf\n") + std::to_string(image.width()) + " " +
                         std::to_string(image.height()) + (is_little_endian ? "\n-1.0\n" : "\n1.0\n");

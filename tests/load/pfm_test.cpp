@@ -30,7 +30,7 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(Pfm, ColoursOfBothByteOrdersComeBackBitForBit) {
+TEST_F(Pfm, ReadsBothByteOrdersBitExactly) {
     const RgbImage image = test::random_image(7, 5, 1);
     for (const bool is_little_endian : {false, true}) {
         const RgbImage read = read_pfm(folder.write("a.pfm", pfm_bytes(image, 3, is_little_endian)));
@@ -40,7 +40,7 @@ TEST_F(Pfm, ColoursOfBothByteOrdersComeBackBitForBit) {
     }
 }
 
-TEST_F(Pfm, GreyIsRepeated) {
+TEST_F(Pfm, ReadsGreyAsRgb) {
     const RgbImage image = test::random_image(4, 3, 2);
     const RgbImage read = parse_pfm(pfm_bytes(image, 1));
     for (int y = 0; y < 3; ++y)
@@ -48,7 +48,7 @@ TEST_F(Pfm, GreyIsRepeated) {
             EXPECT_EQ(read(x, y), Rgb(image(x, y).r));
 }
 
-// Written by hand, lest reader and writer be wrong alike: 1, 2 in the lower row, 3, 4 in the upper.
+// The bytes are literal, independent of the writer: 1, 2 in the lower row, 3, 4 in the upper row.
 TEST_F(Pfm, RowsGoFromTheBottomUp) {
     using std::string_literals::operator""s;
     const std::string pixels = "\x3f\x80\0\0\x40\0\0\0\x40\x40\0\0\x40\x80\0\0"s;
@@ -61,21 +61,21 @@ TEST_F(Pfm, RowsGoFromTheBottomUp) {
     }
 }
 
-// A first pixel whose first byte is white space is no part of the header.
+// The header ends at one white-space character, even if the first pixel begins with another.
 TEST_F(Pfm, PixelsMayLookLikeWhiteSpace) {
     const std::string pixels = "\n\r\t ";
     EXPECT_GT(parse_pfm("Pf\n1 1\n1\n" + pixels)(0, 0).r, 0);
     EXPECT_GT(parse_pfm("Pf\n1 1\n-1\n" + pixels)(0, 0).r, 0);
 }
 
-TEST_F(Pfm, WhatIsNotFiniteComesThrough) {
+TEST_F(Pfm, KeepsNonFinitePixels) {
     const RgbImage read = parse_pfm(pfm_bytes(RgbImage(1, 1, Rgb(NAN, INFINITY, 1))));
     EXPECT_TRUE(std::isnan(read(0, 0).r));
     EXPECT_TRUE(std::isinf(read(0, 0).g));
 }
 
-TEST_F(Pfm, MalformedHeadersAreRefusedByName) {
-    const std::string pixels(48, 'x'); // 2 by 2 of three channels
+TEST_F(Pfm, ErrorsNameFilesWithMalformedHeaders) {
+    const std::string pixels(48, 'x'); // 2 x 2 pixels of three channels
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"", "not a PFM file"},
         {"P6\n2 2\n255\n", "not a PFM file"},
@@ -102,14 +102,14 @@ TEST_F(Pfm, MalformedHeadersAreRefusedByName) {
     }
 }
 
-TEST_F(Pfm, EveryTruncationIsRefused) {
+TEST_F(Pfm, RejectsEveryTruncation) {
     const std::string bytes = pfm_bytes(test::random_image(3, 2, 1));
     for (std::size_t length = 0; length < bytes.size(); ++length)
         EXPECT_NE(error_of(bytes.substr(0, length)).find("a.pfm"), std::string::npos) << length;
     EXPECT_EQ(error_of(bytes), "no error");
 }
 
-TEST_F(Pfm, MissingFilesAndFoldersAreRefusedByName) {
+TEST_F(Pfm, ErrorsNameMissingFilesAndFolders) {
     std::filesystem::create_directories(folder.path() / "b.pfm");
     for (const char* name : {"none.pfm", "b.pfm"}) {
         try {

@@ -25,7 +25,7 @@ std::string header(const std::string& format, const std::string& index_types) {
            " vertex_indices\nproperty float area\nelement edge 1\nproperty int a\nend_header\n";
 }
 
-/// Writes values one after another, in either byte order.
+/// Appends values to a string, in either byte order.
 class Bytes {
 public:
     explicit Bytes(bool big_endian) : big_endian_(big_endian) {}
@@ -61,7 +61,10 @@ std::string binary_square(bool big_endian, const std::string& types) {
     for (int i = 0; i < 4; ++i)
         b.add(static_cast<Index>(i));
     b.add(1.0f);
-    b.add<Count>(2).add(static_cast<Index>(0)).add(static_cast<Index>(1)).add(0.0f); // a line: no triangle
+    b.add<Count>(2)
+        .add(static_cast<Index>(0))
+        .add(static_cast<Index>(1))
+        .add(0.0f); // a face of two corners, which gives no triangle
     b.add<std::int32_t>(5);
     return header(big_endian ? "binary_big_endian" : "binary_little_endian", types) + b.string();
 }
@@ -91,9 +94,9 @@ std::string error_of(const std::string& bytes) {
     return "no error";
 }
 
-/// A text with some vertices and faces.
-std::string small(const std::string& vertices, const std::string& faces, int vertex_count = 3,
-                  int face_count = 1) {
+/// Returns an ASCII PLY file with these vertices and faces.
+std::string ascii_ply(const std::string& vertices, const std::string& faces, int vertex_count = 3,
+                      int face_count = 1) {
     return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
            "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(face_count) +
            "\nproperty list int int vertex_index\nend_header\n" + vertices + faces;
@@ -103,7 +106,7 @@ const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
 
 } // namespace
 
-TEST(Ply, AllFormatsAndTypes) {
+TEST(Ply, ReadsAllFormatsAndTypes) {
     expect_square(parse_ply(ascii_square));
     for (const bool big_endian : {false, true}) {
         expect_square(parse_ply(binary_square<std::uint8_t, std::int32_t>(big_endian, "uchar int")));
@@ -114,7 +117,7 @@ TEST(Ply, AllFormatsAndTypes) {
     }
 }
 
-TEST(Ply, FacesMayStandFirst) {
+TEST(Ply, FacesMayPrecedeVertices) {
     const Mesh mesh =
         parse_ply("ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\n"
                   "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
@@ -141,18 +144,18 @@ TEST(Ply, AttributesHaveMitsubasNames) {
     EXPECT_EQ(mesh.attribute("vertex_foo")->values.at(1), glm::vec3(4, 5, 6));
     EXPECT_EQ(mesh.attribute("vertex_rough")->values.at(1), glm::vec3(0.25f));
     EXPECT_EQ(mesh.attribute("vertex_tint_color")->values.at(3), glm::vec3(6, 7, 8));
-    const std::vector<glm::vec3> faces = {{1, 0, 1}, {1, 0, 1}, {0, 1, 0}}; // the first is two triangles
+    const std::vector<glm::vec3> faces = {{1, 0, 1}, {1, 0, 1}, {0, 1, 0}}; // the first face is two triangles
     EXPECT_EQ(mesh.attribute("face_color")->values, faces);
     EXPECT_FALSE(mesh.attribute("vertex_pair"));
     EXPECT_FALSE(mesh.attribute("vertex_quality"));
 }
 
-TEST(Ply, TruncatedAnywhereItThrowsOrLoads) {
+TEST(Ply, RejectsEveryTruncation) {
     for (const std::string& whole : {ascii_square, binary_square<std::uint8_t, std::int32_t>(false, "uchar int"),
                                      binary_square<std::uint8_t, std::int32_t>(true, "uchar int")}) {
         for (std::size_t length = 0; length < whole.size(); ++length) {
             const std::string message = error_of(whole.substr(0, length));
-            // A text may lose its last number, a binary file nothing.
+            // The last byte belongs to the unused element 'edge', so its loss may go unnoticed.
             if (length + 1 < whole.size()) {
                 EXPECT_NE(message, "no error") << length;
             }
@@ -160,32 +163,35 @@ TEST(Ply, TruncatedAnywhereItThrowsOrLoads) {
     }
 }
 
-TEST(Ply, AnyByteMayBeWrong) {
+TEST(Ply, SurvivesAnyWrongByte) {
     for (const std::string& whole :
          {ascii_square, binary_square<std::uint8_t, std::int32_t>(false, "uchar int")}) {
         for (std::size_t i = 0; i < whole.size(); ++i)
             for (const char replacement : {'\0', '\xff', '9', ' ', '\n', '-', '\x7f'}) {
                 std::string broken = whole;
                 broken[i] = replacement;
-                const std::string message = error_of(broken); // no crash, no hang
+                const std::string message = error_of(broken); // must neither crash nor hang
                 EXPECT_FALSE(message.empty());
             }
     }
 }
 
-TEST(Ply, Errors) {
-    EXPECT_EQ(error_of(small(three, "3 0 1 2\n")), "no error");
-    EXPECT_EQ(error_of(small(three, "3 0 1 3\n")), "a face refers to vertex 3, but there are 3");
-    EXPECT_EQ(error_of(small(three, "3 0 1 -1\n")), "face 0: -1.000000 is not a vertex index");
-    EXPECT_EQ(error_of(small(three, "3 0 1 1.5\n")), "face 0: 1.500000 is not a vertex index");
-    EXPECT_EQ(error_of(small(three, "-3 0 1 1\n")), "face 0: a list cannot have the length -3.000000");
-    EXPECT_EQ(error_of(small(three, "3 0 1")), "face 0: the file ends too early");
-    EXPECT_EQ(error_of(small("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its y is not a finite number");
-    EXPECT_EQ(error_of(small("0 0 0\n1 0 1e300\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its z is not a finite number");
-    EXPECT_EQ(error_of(small("0 0 0\n1 0 1e400\n0 1 0\n", "3 0 1 2\n")), "vertex 1: its z is not a finite number");
-    EXPECT_EQ(error_of(small("0 0 0\n1 0 1e-400\n0 1 0\n", "3 0 1 2\n")), "no error");
-    EXPECT_EQ(error_of(small("0 0 zero\n1 0 0\n0 1 0\n", "3 0 1 2\n")), "vertex 0: 'zero' is not a number");
-    EXPECT_EQ(error_of(small(three, "3 0 1 2\n", 3, 1000000000)),
+TEST(Ply, ReportsErrors) {
+    EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 2\n")), "no error");
+    EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 3\n")), "a face refers to vertex 3, but there are 3");
+    EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 -1\n")), "face 0: -1.000000 is not a vertex index");
+    EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 1.5\n")), "face 0: 1.500000 is not a vertex index");
+    EXPECT_EQ(error_of(ascii_ply(three, "-3 0 1 1\n")), "face 0: a list cannot have the length -3.000000");
+    EXPECT_EQ(error_of(ascii_ply(three, "3 0 1")), "face 0: the file ends too early");
+    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")),
+              "vertex 1: its y is not a finite number");
+    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 0 1e300\n0 1 0\n", "3 0 1 2\n")),
+              "vertex 1: its z is not a finite number");
+    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 0 1e400\n0 1 0\n", "3 0 1 2\n")),
+              "vertex 1: its z is not a finite number");
+    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 0 1e-400\n0 1 0\n", "3 0 1 2\n")), "no error");
+    EXPECT_EQ(error_of(ascii_ply("0 0 zero\n1 0 0\n0 1 0\n", "3 0 1 2\n")), "vertex 0: 'zero' is not a number");
+    EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 2\n", 3, 1000000000)),
               "the header declares 1000000000 rows of 'face', but the file ends too early for them");
     EXPECT_EQ(error_of("ply\nformat ascii 2.0\nend_header\n"),
               "line 2: the format must be 'ascii', 'binary_little_endian' or 'binary_big_endian', version 1.0");
@@ -205,7 +211,7 @@ TEST(Ply, Errors) {
     EXPECT_EQ(error_of("ply\nend_header\n"), "line 2: the header names no format");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\n"), "line 3: the header has no end");
     EXPECT_EQ(error_of(""), "line 1: the header has no end");
-    // Rows of nothing take no time, however many.
+    // Elements without properties take no time, whatever their number.
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement void 99999999999999999\nend_header\n"), "no error");
 }
 

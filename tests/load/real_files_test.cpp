@@ -1,4 +1,4 @@
-// What people's files have that is no reason to refuse them.
+// Flaws of real scene files that the loader tolerates.
 
 #include "render/load/mitsuba_xml.h"
 #include "render/scene/scene.h"
@@ -33,7 +33,7 @@ constexpr const char* with_files =
     "<shape type='cube'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'>"
     "<string name='filename' value='none.png'/></texture></bsdf></shape></scene>";
 
-TEST(RealFiles, WhatIsNotThereIsLeftOutAndAnError) {
+TEST(RealFiles, ReportsMissingFilesAndLoadsTheRest) {
     const TemporaryFolder folder;
     const auto file = folder.write("s.xml", with_files);
     const LoadedScene loaded = load_mitsuba_xml(file);
@@ -50,7 +50,7 @@ TEST(RealFiles, WhatIsNotThereIsLeftOutAndAnError) {
     EXPECT_THROW(load_mitsuba_xml(file, {}, serial_for, nullptr, true), LoadError);
 }
 
-TEST(RealFiles, FilesAreFoundInAnyCase) {
+TEST(RealFiles, FileNamesIgnoreCase) {
     const TemporaryFolder folder;
     const auto file = folder.write("s.xml", with_files);
     folder.write("models/None.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -64,13 +64,14 @@ TEST(RealFiles, FilesAreFoundInAnyCase) {
         }
         return std::string();
     }();
-    EXPECT_NE(error.find("cannot load 'none.png'"), std::string::npos) << "found, and broken: " << error;
+    EXPECT_NE(error.find("cannot load 'none.png'"), std::string::npos)
+        << "the file is found, but broken: " << error;
     std::filesystem::remove(folder.path() / "None.Png");
     std::filesystem::remove(folder.path() / "none.PNG");
     EXPECT_EQ(load_mitsuba_xml(file).description.shapes.at(0).mesh.triangles.size(), 1u);
 }
 
-TEST(RealFiles, ACameraMayLookAlongItsUp) {
+TEST(RealFiles, CameraMayLookAlongItsUpVector) {
     for (const char* up : {"0 1 0", "0 -3 1e-7", "0 0 0"}) {
         const LoadedScene loaded = parse(std::string("<sensor type='perspective'><transform name='to_world'>"
                                                      "<lookat origin='0 5 0' target='0 0 0' up='") +
@@ -81,7 +82,7 @@ TEST(RealFiles, ACameraMayLookAlongItsUp) {
     }
 }
 
-TEST(RealFiles, AnEmitterThatAShapeRefersToIsNotOutside) {
+TEST(RealFiles, AcceptsAnAreaEmitterThatAShapeRefersTo) {
     const std::string emitter = "<emitter type='area' id='lamp'/>";
     const LoadedScene used = parse(emitter + "<shape type='cube'><ref id='lamp'/></shape>");
     EXPECT_EQ(all(used).find("outside of a shape"), std::string::npos) << all(used);
@@ -89,7 +90,7 @@ TEST(RealFiles, AnEmitterThatAShapeRefersToIsNotOutside) {
     EXPECT_NE(all(parse(emitter)).find("outside of a shape"), std::string::npos);
 }
 
-TEST(RealFiles, TheNullBsdfIsInvisible) {
+TEST(RealFiles, NullBsdfIsInvisible) {
     const LoadedScene loaded = parse("<shape type='cube'><bsdf type='null'/></shape>");
     EXPECT_EQ(all(loaded).find("null"), std::string::npos) << all(loaded);
     const Scene scene(loaded.description);
@@ -100,7 +101,7 @@ TEST(RealFiles, TheNullBsdfIsInvisible) {
     EXPECT_FALSE(scene.intersector().occluded({{0.1f, 0.2f, 5}, {0.1f, 0.2f, -5}}));
 }
 
-TEST(RealFiles, ClipPlanesThatCutAreNoted) {
+TEST(RealFiles, ReportsClipPlanesThatCut) {
     const auto camera = [](const std::string& clip) {
         return parse("<sensor type='perspective'>" + clip + "</sensor>");
     };

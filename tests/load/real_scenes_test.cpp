@@ -1,4 +1,4 @@
-// Scenes as they come: those of the project's share (skipped where it is absent) and our own.
+// Complete scenes: those of the shared folder, skipped if it is absent, and those of the assets.
 
 #include "render/load/mitsuba_xml.h"
 
@@ -18,7 +18,8 @@ namespace tessera {
 
 namespace {
 
-/// The share's folder may be given itself, or that of its scenes.
+/// Returns the file of a shared scene, or an empty path. TESSERA_SHARED_DIR may be the folder `scenes` or its
+/// parent.
 std::filesystem::path shared_scene(const std::string& name) {
 #ifdef TESSERA_SHARED_DIR
     for (const char* between : {"scenes", "."}) {
@@ -80,8 +81,8 @@ void expect_sound(const SceneDescription& scene) {
     }
 }
 
-/// The total area of the triangles whose front looks away from a point, over the area of all.
-double share_looking_away(const Mesh& mesh, glm::vec3 point) {
+/// Returns the fraction of the area whose front faces away from a point.
+double fraction_facing_away(const Mesh& mesh, glm::vec3 point) {
     double away = 0;
     double area = 0;
     for (glm::uvec3 t : mesh.triangles) {
@@ -98,7 +99,7 @@ double share_looking_away(const Mesh& mesh, glm::vec3 point) {
 TEST(RealScenes, CornellBox) {
     const auto file = shared_scene("cornell-box");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file);
     const SceneDescription& scene = loaded.description;
     expect_sound(scene);
@@ -113,28 +114,28 @@ TEST(RealScenes, CornellBox) {
     EXPECT_EQ(scene.camera.fov_axis, FovAxis::x);
     EXPECT_EQ(glm::vec3(scene.camera.to_world[3]), glm::vec3(0, 1, 6.8f));
     EXPECT_NEAR(scene.camera.to_world[2].z, -1, 1e-6);
-    EXPECT_NEAR(scene.camera.to_world[0].x, -1, 1e-6); // +x is to the left
+    EXPECT_NEAR(scene.camera.to_world[0].x, -1, 1e-6); // +x points left
 
     for (const Material& material : scene.materials)
         EXPECT_TRUE(material.two_sided) << material.name;
     const auto& left = material_of<DiffuseMaterial>(scene, scene.shapes[4]);
     EXPECT_EQ(left.reflectance.evaluate({{0, 0}}), Rgb(0.63f, 0.065f, 0.05f));
 
-    // Floor and ceiling look into the room, the other walls out of it; boxes look out of themselves, the lamp
+    // Floor and ceiling face into the room, the other walls out of it. Boxes face outward, and the lamp faces
     // down.
     for (std::size_t wall = 0; wall < 5; ++wall)
-        EXPECT_EQ(share_looking_away(scene.shapes[wall].mesh, {0, 1, 0}), wall < 2 ? 0 : 1) << wall;
-    EXPECT_EQ(share_looking_away(scene.shapes[5].mesh, {0.328631f, 0.3f, 0.374592f}), 1);
-    EXPECT_EQ(share_looking_away(scene.shapes[6].mesh, {-0.335439f, 0.6f, -0.291415f}), 1);
+        EXPECT_EQ(fraction_facing_away(scene.shapes[wall].mesh, {0, 1, 0}), wall < 2 ? 0 : 1) << wall;
+    EXPECT_EQ(fraction_facing_away(scene.shapes[5].mesh, {0.328631f, 0.3f, 0.374592f}), 1);
+    EXPECT_EQ(fraction_facing_away(scene.shapes[6].mesh, {-0.335439f, 0.6f, -0.291415f}), 1);
     EXPECT_EQ(scene.shapes[7].area_light, 0);
-    EXPECT_EQ(share_looking_away(scene.shapes[7].mesh, {0, 1, 0}), 0);
-    EXPECT_EQ(loaded.notes.size(), 2u) << all(loaded.notes); // the tent filter
+    EXPECT_EQ(fraction_facing_away(scene.shapes[7].mesh, {0, 1, 0}), 0);
+    EXPECT_EQ(loaded.notes.size(), 2u) << all(loaded.notes); // max_depth and the tent filter
 }
 
 TEST(RealScenes, VeachAjar) {
     const auto file = shared_scene("veach-ajar");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
     const SceneDescription& scene = loaded.description;
     expect_sound(scene);
@@ -151,7 +152,7 @@ TEST(RealScenes, VeachAjar) {
     EXPECT_FLOAT_EQ(floor.alpha.evaluate({}).r, 0.1f);
     EXPECT_FLOAT_EQ(floor.eta.r, 1.65746f);
     EXPECT_FLOAT_EQ(floor.k.b, 4.837f);
-    // 20 by 80 periods: a tile is 1/40 by 1/160.
+    // The checkerboard has 20 x 80 periods, so a square is 1/40 x 1/160.
     EXPECT_EQ(floor.specular_reflectance.evaluate({{0.001f, 0.001f}}), Rgb(0.8f));
     EXPECT_EQ(floor.specular_reflectance.evaluate({{0.001f + 1 / 40.0f, 0.001f}}), Rgb(0.2f));
     EXPECT_EQ(floor.specular_reflectance.evaluate({{0.001f, 0.001f + 1 / 160.0f}}), Rgb(0.2f));
@@ -173,10 +174,10 @@ TEST(RealScenes, VeachAjar) {
     EXPECT_EQ(shape_named(scene, "Pot2_0002").mesh.triangles.size(), 47872u);
 }
 
-TEST(RealScenes, TheNumberOfThreadsChangesNothing) {
+TEST(RealScenes, NumberOfThreadsDoesNotChangeTheScene) {
     const auto file = shared_scene("veach-ajar");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene one = load_mitsuba_xml(file);
     const LoadedScene two = load_mitsuba_xml(file, {}, two_threads);
     ASSERT_EQ(one.description.shapes.size(), two.description.shapes.size());
@@ -187,10 +188,10 @@ TEST(RealScenes, TheNumberOfThreadsChangesNothing) {
     EXPECT_EQ(all(one.notes), all(two.notes));
 }
 
-TEST(RealScenes, VariablesOfTheCommandLineWin) {
+TEST(RealScenes, CommandLineVariablesOverrideDefaults) {
     const auto file = shared_scene("cornell-box");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file, {{"res", "64"}, {"max_depth", "-1"}, {"nosuch", "1"}});
     EXPECT_EQ(loaded.description.size, glm::ivec2(64));
     EXPECT_EQ(loaded.description.max_depth, 65);
@@ -200,7 +201,7 @@ TEST(RealScenes, VariablesOfTheCommandLineWin) {
 TEST(RealScenes, KitchenMasksAndBumps) {
     const auto file = shared_scene("kitchen");
     if (file.empty())
-        GTEST_SKIP() << "the shared scenes are not here";
+        GTEST_SKIP() << "the shared scenes are missing";
     const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
     expect_sound(loaded.description);
     EXPECT_EQ(all(loaded.notes).find("bsdf"), std::string::npos) << all(loaded.notes);
@@ -211,20 +212,20 @@ TEST(RealScenes, KitchenMasksAndBumps) {
         throw std::runtime_error("no material " + name);
     };
     EXPECT_FLOAT_EQ(named("Blinds").opacity.value().evaluate({}).r, 0.612066f);
-    // The shapes refer to what is nested in a nameless bumpmap, and so get no bumps in Mitsuba either.
+    // The shapes refer to the material nested in a bumpmap without an id, so they get no bumps, as in Mitsuba.
     EXPECT_FALSE(named("Cushion1").relief);
     const Texture& map = named("bumpmap").relief.value().map;
     EXPECT_FALSE(std::get<BitmapTexture>(map.kind).bitmap->srgb);
 }
 
-/// The other scenes have plugins still to come: they load, and each gap has its note.
-TEST(RealScenes, AllOthersLoadWithNotes) {
+/// These scenes use plugins that Tessera does not support. They load, and notes report it.
+TEST(RealScenes, OtherScenesLoadWithNotes) {
     const std::pair<const char*, std::size_t> expected[] = {
         {"staircase", 775}, {"living-room", 65}, {"classroom", 79}};
     for (const auto& [name, shapes] : expected) {
         const auto file = shared_scene(name);
         if (file.empty())
-            GTEST_SKIP() << "the shared scenes are not here";
+            GTEST_SKIP() << "the shared scenes are missing";
         const LoadedScene loaded = load_mitsuba_xml(file, {}, two_threads);
         expect_sound(loaded.description);
         EXPECT_EQ(loaded.description.shapes.size(), shapes);
@@ -232,7 +233,7 @@ TEST(RealScenes, AllOthersLoadWithNotes) {
     }
 }
 
-TEST(RealScenes, OurOwnCornellBox) {
+TEST(RealScenes, CornellBoxOfTheAssets) {
     const auto file = std::filesystem::path(TESSERA_SOURCE_DIR) / "assets/cornell-box.xml";
     const LoadedScene loaded = load_mitsuba_xml(file);
     const SceneDescription& scene = loaded.description;
@@ -242,10 +243,10 @@ TEST(RealScenes, OurOwnCornellBox) {
     EXPECT_EQ(scene.max_depth, 8);
     EXPECT_EQ(triangle_count(scene), 36u);
     for (const char* wall : {"floor", "ceiling", "back-wall", "left-wall", "right-wall", "lamp"})
-        EXPECT_EQ(share_looking_away(shape_named(scene, wall).mesh, {0, 1, 0}), 0) << wall;
-    EXPECT_EQ(share_looking_away(shape_named(scene, "tall-box").mesh, {-0.36f, 0.62f, -0.34f}), 1);
+        EXPECT_EQ(fraction_facing_away(shape_named(scene, wall).mesh, {0, 1, 0}), 0) << wall;
+    EXPECT_EQ(fraction_facing_away(shape_named(scene, "tall-box").mesh, {-0.36f, 0.62f, -0.34f}), 1);
     EXPECT_EQ(shape_named(scene, "lamp").area_light, 0);
-    // All stands in the room.
+    // All shapes are inside the room.
     for (const Shape& shape : scene.shapes)
         for (glm::vec3 p : shape.mesh.positions)
             EXPECT_TRUE(std::abs(p.x) < 1.001f && std::abs(p.y - 1) < 1.001f && std::abs(p.z) < 1.001f)

@@ -1,4 +1,4 @@
-// Spheres, disks and cylinders as triangles: area, distance, normals and uv against the exact shapes.
+// Triangulated spheres, disks and cylinders: area, distance, normals and UVs against the exact shapes.
 
 #include "render/load/mitsuba_xml.h"
 #include "render/mesh/meshes.h"
@@ -43,7 +43,7 @@ TEST(RoundShapes, AreasAreExact) {
     EXPECT_NEAR(area(make_cylinder()), 2 * pi_d, 1e-5);
 }
 
-TEST(RoundShapes, NoPointOfASphereIsFarFromIt) {
+TEST(RoundShapes, SphereTrianglesLieNearTheSphere) {
     const Mesh mesh = make_sphere();
     double low = 1;
     double high = 1;
@@ -61,7 +61,7 @@ TEST(RoundShapes, NoPointOfASphereIsFarFromIt) {
     EXPECT_LT(high, 1 + 2e-4);
 }
 
-TEST(RoundShapes, NormalsLookOutwardAndUvIsMitsubas) {
+TEST(RoundShapes, NormalsPointOutwardAndUvsMatchMitsuba) {
     const Mesh sphere = make_sphere();
     for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
         const glm::vec3 n = sphere.normals[i];
@@ -117,7 +117,7 @@ TEST(RoundShapes, ParametersOfACylinder) {
     }
 }
 
-TEST(RoundShapes, AMirroredSphereStillLooksOutward) {
+TEST(RoundShapes, MirroredSpherePointsOutward) {
     const Mesh mesh =
         mesh_of("<shape type='sphere'><transform name='to_world'><scale x='-1' y='2'/></transform></shape>");
     for (const glm::uvec3 t : mesh.triangles) {
@@ -126,7 +126,7 @@ TEST(RoundShapes, AMirroredSphereStillLooksOutward) {
     }
 }
 
-TEST(RoundShapes, EachHasANote) {
+TEST(RoundShapes, ReportsTheNumberOfTriangles) {
     const LoadedScene loaded = parse_mitsuba_xml("<scene version='3.0.0'><sensor type='perspective'/>\n"
                                                  "<shape type='disk'/>\n<shape type='sphere'/></scene>",
                                                  "s.xml");

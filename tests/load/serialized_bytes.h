@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-/// Puts files in Mitsuba's format "serialized" together.
+/// Builds files in Mitsuba's format "serialized".
 class SerializedBytes {
 public:
     explicit SerializedBytes(std::uint16_t version) : version_(version) {}
@@ -18,7 +18,7 @@ public:
         bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
     }
 
-    /// A mesh whose inflated bytes, from the flags on, are `body`.
+    /// Appends a mesh. `body` holds its uncompressed bytes, beginning with the flags.
     SerializedBytes& mesh(const std::string& body) {
         offsets_.push_back(bytes_.size());
         append<std::uint16_t>(bytes_, 0x041C);
@@ -31,7 +31,7 @@ public:
         return *this;
     }
 
-    /// The whole file, with the table at its end.
+    /// Returns the whole file, with the table of offsets at its end.
     std::string file() const {
         std::string result = bytes_;
         for (const std::uint64_t offset : offsets_)
@@ -43,7 +43,8 @@ public:
         return result;
     }
 
-    /// The inflated bytes of a square of two triangles, [0, 1]^2 times `size`, with all that `flags` name.
+    /// Returns the uncompressed bytes of the square [0, size]^2 of two triangles, with the attributes in `flags`:
+    /// normals (1), UVs (2), colours (8).
     template <class Number>
     std::string square(std::uint32_t flags, double size) const {
         constexpr double corners[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

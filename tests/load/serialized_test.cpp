@@ -32,7 +32,7 @@ std::string one_mesh(const std::string& body) {
     return SerializedBytes(4).mesh(body).file();
 }
 
-/// A body of version 4 with these counts and nothing after them.
+/// Returns a mesh body of version 4 that ends after these counts.
 std::string counts(std::uint64_t vertices, std::uint64_t triangles) {
     std::string body;
     SerializedBytes::append<std::uint32_t>(body, 0x1000);
@@ -44,7 +44,7 @@ std::string counts(std::uint64_t vertices, std::uint64_t triangles) {
 
 } // namespace
 
-TEST(Serialized, BothVersionsAndPrecisions) {
+TEST(Serialized, ReadsBothVersionsAndPrecisions) {
     for (const std::uint16_t version : {3, 4}) {
         const SerializedBytes bytes(version);
         for (const std::string& body : {bytes.square<float>(0xb, 1), bytes.square<double>(0xb, 1)}) {
@@ -58,7 +58,7 @@ TEST(Serialized, BothVersionsAndPrecisions) {
     }
 }
 
-TEST(Serialized, AnyMeshOfAFile) {
+TEST(Serialized, ReadsAnyMeshOfAFile) {
     for (const std::uint16_t version : {3, 4}) {
         SerializedBytes bytes(version);
         bytes.mesh(bytes.square<float>(0, 1)).mesh(bytes.square<double>(0x12, 2)).mesh(bytes.square<float>(1, 3));
@@ -73,7 +73,7 @@ TEST(Serialized, AnyMeshOfAFile) {
     }
 }
 
-TEST(Serialized, TruncatedAnywhereItThrows) {
+TEST(Serialized, RejectsEveryTruncation) {
     SerializedBytes bytes(4);
     bytes.mesh(bytes.square<float>(0xb, 1)).mesh(bytes.square<float>(0, 2));
     const std::string whole = bytes.file();
@@ -81,28 +81,28 @@ TEST(Serialized, TruncatedAnywhereItThrows) {
         EXPECT_NE(error_of(whole.substr(0, length), 1), "no error") << length;
     const std::string single = one_mesh(SerializedBytes(4).square<float>(0xb, 1));
     for (std::size_t length = 0; length + 20 < single.size();
-         ++length) // zlib's checksum and the table are not needed
+         ++length) // the last 20 bytes, zlib's checksum and the table, are not needed
         EXPECT_NE(error_of(single.substr(0, length)), "no error") << length;
 }
 
-TEST(Serialized, AnyByteMayBeWrong) {
+TEST(Serialized, SurvivesAnyWrongByte) {
     SerializedBytes bytes(4);
     bytes.mesh(bytes.square<float>(0xb, 1)).mesh(bytes.square<float>(0, 2));
     for (std::size_t i = 0; i < bytes.file().size(); ++i)
         for (const char replacement : {'\0', '\xff', '\x01', '\x7f'}) {
             std::string broken = bytes.file();
             broken[i] = replacement;
-            EXPECT_FALSE(error_of(broken, 1).empty()); // no crash, no hang
+            EXPECT_FALSE(error_of(broken, 1).empty()); // must neither crash nor hang
         }
 }
 
-TEST(Serialized, Errors) {
+TEST(Serialized, ReportsErrors) {
     EXPECT_EQ(error_of(""), "the file ends too early");
     EXPECT_EQ(error_of("this is text"), "this is not a file of serialized meshes");
     EXPECT_EQ(error_of(SerializedBytes(2).mesh("").file()), "version 2 of the format is not known (3 and 4 are)");
     EXPECT_EQ(error_of(std::string("\x1c\x04\x04\x00not zlib at all", 19)), "the compressed data are broken");
     EXPECT_EQ(error_of(one_mesh("")), "the compressed data end too early");
-    // No memory is set aside for what cannot be there.
+    // No memory is allocated for counts that exceed the file.
     EXPECT_EQ(error_of(one_mesh(counts(1000000000, 0))),
               "the file declares 1000000000 vertices and 0 triangles, but is too short for them");
     EXPECT_EQ(error_of(one_mesh(counts(0, std::numeric_limits<std::uint64_t>::max()))),
@@ -117,7 +117,7 @@ TEST(Serialized, Errors) {
               "position 0 is not finite");
 }
 
-TEST(Serialized, InAScene) {
+TEST(Serialized, LoadsInAScene) {
     const TemporaryFolder folder;
     SerializedBytes bytes(4);
     bytes.mesh(bytes.square<float>(0x12, 1)).mesh(bytes.square<double>(8, 2));
@@ -128,7 +128,7 @@ TEST(Serialized, InAScene) {
                                          parameters + "</shape></scene>");
     };
     const Mesh first = load_mitsuba_xml(scene("")).description.shapes.at(0).mesh;
-    EXPECT_TRUE(first.normals.empty()); // as the file says
+    EXPECT_TRUE(first.normals.empty()); // the file asks for face normals
     EXPECT_EQ(first.uvs[2], glm::vec2(1, 1));
     const Mesh second = load_mitsuba_xml(scene("<integer name='shapeIndex' value='1'/>"
                                                "<transform name='toWorld'><translate z='5'/></transform>"))

@@ -1,4 +1,4 @@
-// Normals that are smooth but for sharp edges.
+// Smooth normals that keep sharp edges.
 #include "render/mesh/meshes.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ glm::vec3 face_normal(const Mesh& mesh, std::size_t i) {
         glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
 }
 
-/// Two strips of two triangles each, folded along the y axis by an angle in degrees; vertices are shared.
+/// Returns two quads that share vertices, folded along the y axis by `angle`, in degrees.
 Mesh folded(float angle) {
     const float a = glm::radians(angle);
     Mesh mesh;
@@ -38,7 +38,7 @@ TEST(Smoothing, SplitsSharpEdgesOnly) {
                         {"face_a", {Rgb(0), Rgb(1), Rgb(2), Rgb(3)}}};
     const Mesh before = sharp;
     smooth_normals(sharp, 45);
-    EXPECT_EQ(sharp.positions.size(), 8u); // two of them twice
+    EXPECT_EQ(sharp.positions.size(), 8u); // the two vertices on the fold are split
     EXPECT_EQ(sharp.attribute("face_a")->values.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -57,8 +57,8 @@ TEST(Smoothing, SplitsSharpEdgesOnly) {
         EXPECT_LT(glm::distance(smooth.normals[i], plain.normals[i]), 1e-6f);
 }
 
-TEST(Smoothing, SeesVerticesInOnePlaceAsOne) {
-    Mesh mesh; // the same fold, but no two triangles share a vertex
+TEST(Smoothing, TreatsCoincidentVerticesAsShared) {
+    Mesh mesh; // the same fold without shared vertices
     const Mesh shared = folded(50);
     for (const glm::uvec3 t : shared.triangles) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -76,7 +76,7 @@ TEST(Smoothing, SeesVerticesInOnePlaceAsOne) {
                       1e-6f);
 }
 
-TEST(Smoothing, OfACubeAndASphere) {
+TEST(Smoothing, KeepsTheEdgesOfACubeAndSmoothsASphere) {
     Mesh cube = make_cube();
     smooth_normals(cube, 30);
     for (std::size_t i = 0; i < cube.triangles.size(); ++i)
@@ -87,16 +87,17 @@ TEST(Smoothing, OfACubeAndASphere) {
         EXPECT_GT(glm::dot(cube.normals[i], glm::normalize(cube.positions[i])), 0.9f);
     Mesh sphere = make_sphere();
     smooth_normals(sphere, 30);
-    float least = 1; // but for triangles without area, as at the poles
+    float smallest_cosine = 1; // excludes triangles without area at the poles
     for (std::size_t i = 0; i < sphere.triangles.size(); ++i)
         for (int j = 0; j < 3 && glm::length(front_normal(sphere, sphere.triangles[i])) > 0; ++j) {
             const auto corner = sphere.triangles[i][j];
-            least = std::min(least, glm::dot(sphere.normals[corner], glm::normalize(sphere.positions[corner])));
+            smallest_cosine = std::min(smallest_cosine,
+                                       glm::dot(sphere.normals[corner], glm::normalize(sphere.positions[corner])));
         }
-    EXPECT_GT(least, 0.99f);
+    EXPECT_GT(smallest_cosine, 0.99f);
 }
 
-TEST(Smoothing, TakesTrianglesWithoutAreaAndNone) {
+TEST(Smoothing, AcceptsDegenerateTrianglesAndEmptyMeshes) {
     Mesh mesh;
     smooth_normals(mesh, 30);
     EXPECT_TRUE(mesh.normals.empty());

@@ -17,7 +17,7 @@ namespace tessera::test {
 
 namespace {
 
-/// The number of a process that is no more.
+/// Returns the id of a process that has ended.
 pid_t ended_process() {
     const pid_t child = fork();
     if (child == 0)
@@ -26,8 +26,7 @@ pid_t ended_process() {
     return child;
 }
 
-/// What the names of this machine's and container's temporary files have before the process:
-/// "a.exr.PLACE-PID-1.tmp".
+/// Returns the part "PLACE-" of the name "a.exr.PLACE-PID-1.tmp", which identifies this machine and container.
 std::string place() {
     const std::string name = TemporaryFile("a.exr").path().string();
     return name.substr(6, name.rfind(std::to_string(getpid()) + "-") - 6);
@@ -40,7 +39,7 @@ std::set<std::string> names_in(const TemporaryFolder& folder) {
     return names;
 }
 
-TEST(TemporaryFile, RemovesWhatAKilledProcessLeftOfTheSameFile) {
+TEST(TemporaryFile, RemovesLeftoversOfAKilledProcess) {
     const TemporaryFolder folder;
     const std::string ended = place() + std::to_string(ended_process()),
                       living = place() + std::to_string(getpid());
@@ -49,12 +48,14 @@ TEST(TemporaryFile, RemovesWhatAKilledProcessLeftOfTheSameFile) {
                                           "a.exr." + ended + "-7.tmp.txt", "a.exr." + ended + ".tmp"};
     for (const std::string& name : others)
         folder.write(name, "another's");
-    { const TemporaryFile file(folder.path() / "a.exr"); }
+    {
+        const TemporaryFile file(folder.path() / "a.exr");
+    }
     EXPECT_EQ(names_in(folder), others);
 }
 
-/// Its process is not to be seen from here, whether it lives or not.
-TEST(TemporaryFile, LeavesWhatAnotherMachineOrContainerWrites) {
+/// Process ids of other machines and containers say nothing about running processes here.
+TEST(TemporaryFile, KeepsFilesOfOtherMachinesAndContainers) {
     const TemporaryFolder folder;
     const std::string ended = std::to_string(ended_process());
     std::string elsewhere = place();
@@ -62,7 +63,9 @@ TEST(TemporaryFile, LeavesWhatAnotherMachineOrContainerWrites) {
     const std::set<std::string> others = {"a.exr." + elsewhere + ended + "-7.tmp", "a.exr." + ended + "-7.tmp"};
     for (const std::string& name : others)
         folder.write(name, "another's");
-    { const TemporaryFile file(folder.path() / "a.exr"); }
+    {
+        const TemporaryFile file(folder.path() / "a.exr");
+    }
     EXPECT_EQ(names_in(folder), others);
 }
 
@@ -71,7 +74,7 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(TemporaryFile, LinksAreFollowed) {
+TEST(TemporaryFile, FollowsSymbolicLinks) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.path() / "far");
     std::filesystem::create_symlink("far/a.txt", folder.path() / "there");
@@ -90,7 +93,7 @@ TEST(TemporaryFile, LinksAreFollowed) {
     EXPECT_THROW(check_writable(folder.path() / "a"), std::exception);
 }
 
-TEST(TemporaryFile, DevicesAndPipesStay) {
+TEST(TemporaryFile, WritesToDevicesAndPipesInPlace) {
     const TemporaryFolder folder;
     std::filesystem::create_symlink("/dev/null", folder.path() / "null");
     check_writable(folder.path() / "null");
@@ -98,8 +101,8 @@ TEST(TemporaryFile, DevicesAndPipesStay) {
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
     const std::filesystem::path pipe = folder.path() / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0666), 0);
-    check_writable(pipe);                  // without a reader
-    const std::string whole(1 << 20, 'x'); // more than a pipe holds
+    check_writable(pipe);                  // has no reader
+    const std::string whole(1 << 20, 'x'); // larger than a pipe's buffer
     std::string read;
     std::thread reader([&] { read = text_of(pipe); });
     write_text(pipe, whole);
@@ -108,14 +111,14 @@ TEST(TemporaryFile, DevicesAndPipesStay) {
     EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
-TEST(TemporaryFile, WhatIsNoFileIsNotRead) {
+TEST(TemporaryFile, RefusesToReadPipesAndDevices) {
     const TemporaryFolder folder;
     ASSERT_EQ(mkfifo((folder.path() / "pipe").c_str(), 0666), 0);
     for (const std::filesystem::path& path : {folder.path() / "pipe", std::filesystem::path("/dev/zero")})
         EXPECT_THROW(read_bytes(path), std::runtime_error);
 }
 
-TEST(TemporaryFile, LookingWhetherAFileCanBeWrittenTouchesNoOther) {
+TEST(TemporaryFile, CheckWritableTouchesNoOtherFile) {
     const TemporaryFolder folder;
     const std::set<std::string> others = {"a.exr", "a.exr.part", "a.exr.checkpoint", "a.exr.tmp"};
     for (const std::string& name : others)

@@ -11,18 +11,18 @@
 
 namespace tessera {
 
-/// A TGA picture of one row, as 24 bits: blue, green and red of each pixel.
+/// Returns a TGA image of one row. `pixels` holds blue, green and red bytes of each pixel.
 inline std::string tga_row(const std::string& pixels) {
     std::string header(18, '\0');
-    header[2] = 2; // true colour, without runs
+    header[2] = 2; // uncompressed true colour
     header[12] = static_cast<char>(pixels.size() / 3);
     header[14] = 1;
     header[16] = 24;
-    header[17] = 0x20; // from the top
+    header[17] = 0x20; // rows from top to bottom
     return header + pixels;
 }
 
-/// A folder that goes away with its owner.
+/// Temporary folder that the destructor deletes.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

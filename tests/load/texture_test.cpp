@@ -9,8 +9,8 @@ namespace tessera {
 
 namespace {
 
-/// 2 x 2 grey, linear: 0 1 over 2 3.
-Texture four(Filter filter, Wrap wrap) {
+/// Returns a linear grey bitmap of 2 x 2 pixels: 0 1 in the upper row, 2 3 in the lower row.
+Texture two_by_two(Filter filter, Wrap wrap) {
     auto bitmap = std::make_shared<Bitmap>();
     bitmap->width = 2;
     bitmap->height = 2;
@@ -48,18 +48,18 @@ TEST(Texture, GradientIsTheDerivative) {
 
 } // namespace
 
-TEST(Texture, BytesAreDecoded) {
+TEST(Texture, DecodesSrgbBytes) {
     Bitmap bitmap{1, 2, true, {0, 128, 255, 10, 20, 30}, {}};
     EXPECT_EQ(bitmap.texel(0, 0).r, 0);
     EXPECT_NEAR(bitmap.texel(0, 0).g, 0.2158605f, 1e-6);
     EXPECT_EQ(bitmap.texel(0, 0).b, 1);
-    EXPECT_NEAR(bitmap.texel(0, 1).r, 10 / 255.0 / 12.92, 1e-7); // the linear part
+    EXPECT_NEAR(bitmap.texel(0, 1).r, 10 / 255.0 / 12.92, 1e-7); // the linear segment of sRGB
     bitmap.srgb = false;
     EXPECT_FLOAT_EQ(bitmap.texel(0, 1).b, 30 / 255.0f);
 }
 
-TEST(Texture, NearestBeginsAtTheTopLeft) {
-    const Texture texture = four(Filter::nearest, Wrap::repeat);
+TEST(Texture, NearestFilterBeginsAtTheTopLeft) {
+    const Texture texture = two_by_two(Filter::nearest, Wrap::repeat);
     EXPECT_EQ(at(texture, 0.1f, 0.1f), 0);
     EXPECT_EQ(at(texture, 0.9f, 0.1f), 1);
     EXPECT_EQ(at(texture, 0.1f, 0.9f), 2);
@@ -68,7 +68,7 @@ TEST(Texture, NearestBeginsAtTheTopLeft) {
 
 TEST(Texture, BilinearIsExactAtPixelCentres) {
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
-        const Texture texture = four(Filter::bilinear, wrap);
+        const Texture texture = two_by_two(Filter::bilinear, wrap);
         EXPECT_FLOAT_EQ(at(texture, 0.25f, 0.25f), 0);
         EXPECT_FLOAT_EQ(at(texture, 0.75f, 0.25f), 1);
         EXPECT_FLOAT_EQ(at(texture, 0.25f, 0.75f), 2);
@@ -78,20 +78,20 @@ TEST(Texture, BilinearIsExactAtPixelCentres) {
 }
 
 TEST(Texture, WrapModes) {
-    const Texture repeat = four(Filter::bilinear, Wrap::repeat);
+    const Texture repeat = two_by_two(Filter::bilinear, Wrap::repeat);
     EXPECT_FLOAT_EQ(at(repeat, 0, 0.25f), 0.5f); // between the last and the first column
     EXPECT_FLOAT_EQ(at(repeat, 1, 0.25f), 0.5f);
     EXPECT_FLOAT_EQ(at(repeat, -3.25f, 5.25f), 1);
-    const Texture clamp = four(Filter::bilinear, Wrap::clamp);
+    const Texture clamp = two_by_two(Filter::bilinear, Wrap::clamp);
     EXPECT_FLOAT_EQ(at(clamp, 0, 0.25f), 0);
     EXPECT_FLOAT_EQ(at(clamp, 7, 0.25f), 1);
-    const Texture mirror = four(Filter::bilinear, Wrap::mirror);
+    const Texture mirror = two_by_two(Filter::bilinear, Wrap::mirror);
     EXPECT_FLOAT_EQ(at(mirror, 1, 0.25f), 1);
     EXPECT_FLOAT_EQ(at(mirror, 1.25f, 0.25f), 1);
     EXPECT_FLOAT_EQ(at(mirror, -0.75f, 0.25f), 1);
 }
 
-TEST(Texture, AnyCoordinateIsHarmless) {
+TEST(Texture, AnyCoordinateGivesAValueInRange) {
     const float values[] = {std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity(),
                             std::numeric_limits<float>::quiet_NaN(),
@@ -104,7 +104,7 @@ TEST(Texture, AnyCoordinateIsHarmless) {
         for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
             for (const float u : values)
                 for (const float v : values) {
-                    const float value = at(four(filter, wrap), u, v);
+                    const float value = at(two_by_two(filter, wrap), u, v);
                     EXPECT_TRUE(value >= 0 && value <= 3) << u << " " << v;
                 }
 }

@@ -1,4 +1,4 @@
-// BVHs are watched while they are built, and given up.
+// BuildMonitor reports the progress of a BVH build and can cancel it.
 #include "render/trace/intersector.h"
 #include "tests/support/scene_builder.h"
 
@@ -11,7 +11,7 @@ namespace tessera::test {
 
 namespace {
 
-/// A scene of some hundred thousand triangles.
+/// Returns a scene of some hundred thousand triangles.
 SceneBuilder large_scene() {
     SceneBuilder scene;
     const int white = scene.diffuse(Rgb(0.5f));
@@ -21,26 +21,26 @@ SceneBuilder large_scene() {
     return scene;
 }
 
-TEST(BuildMonitor, IsToldHowFarTheBvhIs) {
+TEST(BuildMonitor, ReceivesTheProgressOfABuild) {
     const SceneBuilder scene = large_scene();
     std::atomic<int> calls = 0;
-    std::atomic<bool> sound = true;
+    std::atomic<bool> in_range = true;
     {
-        const BuildMonitor monitor([&](double share) {
+        const BuildMonitor monitor([&](double progress) {
             ++calls;
-            sound = sound && share >= 0 && share <= 1;
+            in_range = in_range && progress >= 0 && progress <= 1;
             return true;
         });
         EXPECT_NE(scene.build(), nullptr);
     }
     EXPECT_GT(calls, 1);
-    EXPECT_TRUE(sound);
+    EXPECT_TRUE(in_range);
     const int before = calls;
     EXPECT_NE(scene.build(), nullptr);
-    EXPECT_EQ(calls, before); // it is over
+    EXPECT_EQ(calls, before); // the destroyed monitor receives no calls
 }
 
-TEST(BuildMonitor, EndsABuildThatIsWantedNoMore) {
+TEST(BuildMonitor, CancelsABuild) {
     const SceneBuilder scene = large_scene();
     std::atomic<int> calls = 0;
     const BuildMonitor monitor([&](double) { return ++calls < 2; });

@@ -1,4 +1,4 @@
-// Renders that go on from a checkpoint, and checkpoint files that are not what they should be.
+// Renders that resume from a checkpoint, and invalid checkpoint files.
 #include "render/run/checkpoint.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
@@ -33,7 +33,7 @@ Render new_render(const std::shared_ptr<const Scene>& scene, Method method) {
     RenderSettings settings;
     settings.method = method;
     settings.tile = 5;
-    settings.path_guiding = Guiding::off; // what is learnt of guides is in no checkpoint
+    settings.path_guiding = Guiding::off; // checkpoints do not store what path guiding has learned
     return Render(scene, scene->camera(), {37, 29}, settings);
 }
 
@@ -41,9 +41,8 @@ bool same_bits(const RgbImage& a, const RgbImage& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0);
 }
 
-/// Everything that a pass sees or changes: the film, LearnedReuse that has learnt from earlier passes,
-/// counts.
-TEST(Checkpoint, ARenderGoesOnWithTheSameBits) {
+/// A checkpoint restores all state that a pass reads or changes: film, LearnedReuse and counters.
+TEST(Checkpoint, ResumedRenderHasTheSameBits) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "render.checkpoint";
     const std::shared_ptr<const Scene> scene = patchwork();
@@ -97,22 +96,22 @@ protected:
     std::array<int, 100> numbers_{1, 2, 3};
 };
 
-TEST_F(CheckpointFile, GivesBackWhatWasWritten) {
+TEST_F(CheckpointFile, RestoresWhatWasWritten) {
     std::array<int, 60> first{};
     std::array<int, 40> second{};
     restore(read_checkpoint(file_), {memory_of(first), memory_of(second)});
     EXPECT_EQ(first[2], 3);
     EXPECT_TRUE(std::equal(second.begin(), second.end(), numbers_.begin() + 60));
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "nothing is left beside it";
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "no other file is left";
 }
 
-TEST_F(CheckpointFile, OfAnotherSizeIsRefusedAndChangesNothing) {
+TEST_F(CheckpointFile, RejectsStateOfAnotherSizeUnchanged) {
     std::array<int, 99> numbers{7};
     EXPECT_THROW(restore(read_checkpoint(file_), {memory_of(numbers)}), std::runtime_error);
     EXPECT_EQ(numbers[0], 7);
 }
 
-TEST_F(CheckpointFile, AnyChangedOrMissingByteIsFound) {
+TEST_F(CheckpointFile, DetectsAnyChangedOrMissingByte) {
     const std::string whole = bytes();
     EXPECT_EQ(refusal(), "");
     for (std::size_t i = 0; i < whole.size(); ++i) {

@@ -1,4 +1,4 @@
-// Errors of reconstructions that are called consistent, from 4 to 4,096 samples: they fall without a floor.
+// The errors of consistent reconstructions fall without a floor, from 4 to 4,096 samples.
 #include "recon/metrics/metrics.h"
 #include "recon/picture/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
@@ -21,8 +21,8 @@ namespace {
 struct Case {
     const char* scene; ///< in assets
     glm::ivec2 size;
-    int samples;           ///< most of a picture
-    int reference_samples; ///< of each half of the reference, which is path traced
+    int samples;           ///< largest number of samples per pixel
+    int reference_samples; ///< samples per pixel of each path-traced reference half
 };
 
 class Consistency : public testing::TestWithParam<Case> {
@@ -40,7 +40,7 @@ protected:
         return {scene, scene->camera(), c.size, settings};
     }
 
-    /// Two independent halves, whose noise drops out of the error.
+    /// Renders two independent reference halves, whose noise cancels in the floor-free error.
     std::array<RgbImage, 2> reference() {
         std::array<RgbImage, 2> halves;
         for (std::uint64_t half = 0; half < 2; ++half) {
@@ -80,7 +80,7 @@ TEST_P(Consistency, ErrorsFallWithoutAFloor) {
         for (const Point& p : curve)
             std::printf("  %d: %.2e", p.samples, p.error.relative_mse);
         std::printf("\n");
-        // Between any point and one with 16 times the samples, an error that falls as n^-0.5 is a quarter.
+        // With 16 times the samples, a squared error that falls as n^-0.5 is a quarter.
         for (std::size_t i = 0; i + 2 < curve.size(); ++i) {
             const FloorFreeError &few = curve[i].error, &many = curve[i + 2].error;
             EXPECT_LT(many.relative_mse, few.relative_mse / 4 + 3 * many.standard_error)

@@ -1,5 +1,5 @@
-// Every pixel is rendered once a pass, whatever the tiles, patterns and the image's size: behind a wall that
-// shines alike everywhere a pixel left out would be dark, and one taken twice would be twice as bright.
+// Each pass renders every pixel once, for all tiles, patterns and image sizes. The scene is a wall of constant
+// radiance, so an omitted pixel would be dark, and a repeated one twice as bright.
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
@@ -13,17 +13,17 @@ namespace tessera::test {
 
 namespace {
 
-constexpr int passes = 6; // the tile grid begins elsewhere in each
+constexpr int passes = 6; // each pass moves the tile grid
 
-std::shared_ptr<const Scene> shining_wall() {
+std::shared_ptr<const Scene> emitting_wall() {
     SceneBuilder b;
     b.quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, b.diffuse(Rgb(0.5f)), b.light(Rgb(0.5f, 1, 2)));
     b.camera({0, 0, 1}, {0, 0, 0}, 50);
     return b.build();
 }
 
-/// The settings of every way to cut an image.
-std::vector<RenderSettings> all_cuts() {
+/// Returns settings of all methods, patterns and tile sizes.
+std::vector<RenderSettings> all_tilings() {
     std::vector<RenderSettings> list;
     for (const Method method : all_methods)
         for (const Pattern pattern : {Pattern::tile, Pattern::rooks})
@@ -43,11 +43,11 @@ std::vector<RenderSettings> all_cuts() {
 
 class Coverage : public testing::TestWithParam<glm::ivec2> {};
 
-TEST_P(Coverage, EveryPixelHasOneSampleAPass) {
-    const auto scene = shining_wall();
+TEST_P(Coverage, EveryPixelHasOneSamplePerPass) {
+    const auto scene = emitting_wall();
     const glm::ivec2 size = GetParam();
     ThreadPool pool(2);
-    for (const RenderSettings& settings : all_cuts()) {
+    for (const RenderSettings& settings : all_tilings()) {
         Render render(scene, scene->camera(), size, settings);
         for (int pass = 0; pass < passes; ++pass)
             render.pass(pool);
@@ -59,7 +59,7 @@ TEST_P(Coverage, EveryPixelHasOneSampleAPass) {
                                  std::to_string(settings.tile) +
                                  (settings.pattern == Pattern::rooks ? " rooks" : "");
         EXPECT_EQ(wrong, 0) << name;
-        // In PR, sampling sets do not overlap: each base path takes part in one, and is traced once.
+        // In PR, sampling sets do not overlap, so each base path is traced once and belongs to one set.
         const auto count = static_cast<std::uint64_t>(size.x * size.y * passes);
         if (settings.method == Method::pr) {
             EXPECT_EQ(render.counters().set_paths(), count) << name;

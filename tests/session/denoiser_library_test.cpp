@@ -1,4 +1,4 @@
-// The session without Open Image Denoise: a word, another picture, and nobody but a worker waits for the library.
+// Without Open Image Denoise, the session reports it and shows another reconstruction. Only a worker waits.
 
 #include "recon/picture/oidn.h"
 #include "render/scene/scene.h"
@@ -25,8 +25,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The library is looked for in a pipe that nobody writes to until the calls have returned: who opens it waits.
-TEST(Session, OnlyAWorkerWaitsForTheDenoisersLibrary) {
+// The library's path is a pipe without a writer until the calls return. Opening it blocks.
+TEST(Session, OnlyAWorkerWaitsForTheDenoiserLibrary) {
     const TemporaryFolder folder;
     const std::string pipe = (folder.path() / "libOpenImageDenoise.so").string();
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -38,7 +38,7 @@ TEST(Session, OnlyAWorkerWaitsForTheDenoisersLibrary) {
         session.submit(0, {scene, scene->camera(), {64, 48}, {}});
         session.set_reconstruction(0, {Norm::oidn});
     });
-    // A minute: other tests run beside. A writer ends the wait of whoever reads.
+    // The limit is a minute, because other tests run in parallel. Opening a writer unblocks the reader.
     EXPECT_EQ(calls.wait_for(60s), std::future_status::ready);
     std::vector<std::string> messages;
     const auto shown = [&] {
@@ -46,7 +46,7 @@ TEST(Session, OnlyAWorkerWaitsForTheDenoisersLibrary) {
         return s && !s->coarse() && s->reconstruction_spp == 2 && s->reconstructed_with.norm == Norm::guided;
     };
     for (int i = 0; i < 12000 && !(shown() && !messages.empty()); ++i) {
-        if (const int writer = open(pipe.c_str(), O_WRONLY | O_NONBLOCK); writer >= 0) // there is a reader
+        if (const int writer = open(pipe.c_str(), O_WRONLY | O_NONBLOCK); writer >= 0) // a reader is waiting
             close(writer);
         for (std::string& message : session.take_messages())
             messages.push_back(std::move(message));

@@ -27,7 +27,7 @@ std::shared_ptr<const Scene> scene() {
     return nullptr;
 }
 
-/// Settings by name.
+/// Settings with the name of the test case.
 struct Variant {
     std::string name;
     RenderSettings settings;
@@ -46,7 +46,7 @@ RenderSettings settings_for(Method method) {
     return s;
 }
 
-/// Every setting that decides on random numbers, or on who shares with whom.
+/// Returns variants of every setting that affects random numbers or reuse sets.
 std::vector<Variant> variants() {
     std::vector<Variant> list;
     const auto add = [&](std::string name, Method method, const std::function<void(RenderSettings&)>& change) {
@@ -65,12 +65,12 @@ std::vector<Variant> variants() {
     add("roulette_depth", Method::gpr, [](S& s) { s.roulette_depth = 1; });
     add("absolute_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::absolute; });
     add("no_roulette", Method::gpr, [](S& s) { s.roulette = RouletteKind::none; });
-    add("parts_of_tiles", Method::gpr, [](S& s) { s.basis = Basis::sh2; });
-    add("parts_of_pairs", Method::gpt, [](S& s) { s.basis = Basis::box; });
+    add("basis_components_of_gpr", Method::gpr, [](S& s) { s.basis = Basis::sh2; });
+    add("basis_components_of_gpt", Method::gpt, [](S& s) { s.basis = Basis::box; });
     add("path_guiding", Method::gpr, [](S& s) { s.path_guiding = Guiding::on; });
     add("path_guiding_of_path_tracing", Method::pt, [](S& s) { s.path_guiding = Guiding::on; });
     add("no_edge_rays", Method::gpr, [](S& s) { s.edge_rays = false; });
-    add("tiles_whole", Method::gpr, [](S& s) { s.adapt_tile = false; });
+    add("no_tile_splitting", Method::gpr, [](S& s) { s.adapt_tile = false; });
     return list;
 }
 
@@ -114,7 +114,7 @@ GradientImages render(const RenderSettings& settings, int threads) {
 
 class Threads : public testing::TestWithParam<Variant> {};
 
-TEST_P(Threads, GiveTheSameBitsHoweverManyTheyAre) {
+TEST_P(Threads, AnyNumberGivesTheSameBits) {
     const RenderSettings& settings = GetParam().settings;
     const GradientImages one = render(settings, 1);
     for (const int threads : {2, 3, 8})
@@ -126,24 +126,24 @@ INSTANTIATE_TEST_SUITE_P(variants, Threads, testing::ValuesIn(variants()),
 
 class Determinism : public testing::TestWithParam<Method> {};
 
-TEST_P(Determinism, ImagesAreTakenAsTheyAreSeen) {
+TEST_P(Determinism, TakeImagesEqualsImages) {
     ThreadPool pool(1);
     const auto s = scene();
     Render render(s, s->camera(), size, settings_for(GetParam()));
     EXPECT_TRUE(render.pass(pool));
     const GradientImages seen = render.images();
     EXPECT_TRUE(same_bits(seen, render.take_images()));
-    EXPECT_TRUE(render.images().primal.empty()); // given up
+    EXPECT_TRUE(render.images().primal.empty()); // moved out
 }
 
-TEST_P(Determinism, AnotherSeedGivesAnotherPicture) {
+TEST_P(Determinism, AnotherSeedGivesAnotherImage) {
     RenderSettings settings = settings_for(GetParam());
     const GradientImages one = render(settings, 2);
     ++settings.seed;
     EXPECT_FALSE(same_bits(one, render(settings, 2)));
 }
 
-TEST_P(Determinism, SessionGivesTheBitsOfAHeadlessRender) {
+TEST_P(Determinism, SessionMatchesAHeadlessRender) {
     Session session(2, 2);
     session.set_pace({Pace::Equal::time, passes, 0});
     const auto s = scene();

@@ -11,7 +11,7 @@
 namespace tessera::test {
 namespace {
 
-/// A wall of two thirds reflectance three units ahead, with a light far behind the camera.
+/// Returns a scene with a diffuse wall three units ahead, and a light behind the camera.
 std::shared_ptr<const Scene> wall() {
     SceneBuilder scene;
     const int grey = scene.diffuse({0.6f, 0.3f, 0.1f});
@@ -21,14 +21,15 @@ std::shared_ptr<const Scene> wall() {
     return scene.build();
 }
 
-TEST(FirstHits, OfAWall) {
+TEST(FirstHits, MatchAWall) {
     const auto scene = wall();
     const glm::ivec2 size(33, 33);
     const FirstHits hits = trace_first_hits(*scene, scene->camera(), size);
     EXPECT_NEAR(hits.depth(16, 16), 3, 1e-4f);
     EXPECT_NEAR(hits.normal(16, 16).z, 1, 1e-5f);
     EXPECT_LT(glm::distance(hits.albedo(16, 16), Rgb(0.6f, 0.3f, 0.1f)), 1e-4f);
-    // 60 degrees at 3 units see 1.73 to each side: the corner misses.
+    // A field of view of 60 degrees spans 1.73 units to each side at a distance of 3, so the corner ray misses the
+    // wall.
     EXPECT_EQ(hits.depth(0, 0), 0);
     EXPECT_EQ(hits.normal(0, 0), Rgb(0));
     const float slanted = hits.depth(10, 16);
@@ -36,9 +37,9 @@ TEST(FirstHits, OfAWall) {
     EXPECT_NEAR(slanted, std::hypot(3.0f, 3 * 6 * 2 * std::tan(glm::radians(30.0f)) / 33), 1e-3f);
 }
 
-/// A wall that is a mirror, and one that is none, in front of a wall behind the camera: footprints are as wide as a
-/// pixel at the first, and go on as wide as its cone in a mirror, but over all of the room where light is scattered.
-TEST(FirstHits, FootprintsAreWideWhereLightIsScattered) {
+/// The scene has a diffuse wall and a mirror ahead, and a wall behind the camera. First footprints are one pixel
+/// wide. Second footprints follow the pixel's cone after the mirror, and are wide after diffuse scattering.
+TEST(FirstHits, FootprintsAreWideAfterDiffuseScattering) {
     SceneBuilder scene;
     const int grey = scene.diffuse(Rgb(0.5f));
     scene.quad({-3, -3, 0}, {3, 0, 0}, {0, 6, 0}, grey);
@@ -50,7 +51,7 @@ TEST(FirstHits, FootprintsAreWideWhereLightIsScattered) {
     const glm::ivec2 size(32, 32);
     EXPECT_TRUE(trace_first_hits(*built, built->camera(), size).footprint_1.empty());
     const FirstHits hits = trace_first_hits(*built, built->camera(), size, true);
-    const float pixel = 2 * std::tan(glm::radians(30.0f)) / 32; // at one unit
+    const float pixel = 2 * std::tan(glm::radians(30.0f)) / 32; // width of a pixel at a distance of one unit
     EXPECT_NEAR(hits.footprint_1(14, 15), 3 * pixel, 0.02f * pixel);
     EXPECT_NEAR(hits.footprint_1(17, 15), 3 * pixel, 0.02f * pixel);
     EXPECT_NEAR(hits.footprint_2(17, 15), 12 * pixel, 0.1f * pixel);
@@ -60,7 +61,7 @@ TEST(FirstHits, FootprintsAreWideWhereLightIsScattered) {
     EXPECT_GT(wide, 12);
 }
 
-TEST(FirstHits, StopWhenTold) {
+TEST(FirstHits, StopOnRequest) {
     const auto scene = wall();
     std::stop_source source;
     source.request_stop();

@@ -1,4 +1,4 @@
-// The inspection of one sample of one pixel: the same numbers as in the picture.
+// The inspection of one sample of one pixel has the same values as the render.
 #include "render/estimator/tile_grid.h"
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
@@ -59,7 +59,7 @@ protected:
     }
 };
 
-TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
+TEST_P(Inspected, RadianceIsWhatThePassAdds) {
     const glm::ivec2 pixels[] = {{0, 0}, {11, 7}, {22, 13}, {4, 9}, {15, 10}};
     Render render(scene, scene->camera(), size, settings);
     std::vector<Rgb> sums(std::size(pixels), Rgb(0));
@@ -78,11 +78,11 @@ TEST_P(Inspected, WhatReachesThePixelIsWhatThePassAdds) {
     }
 }
 
-TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
-    settings.adapt_tile = false; // pixels that share nothing have no shifts
+TEST_P(Inspected, ShiftsHaveOutcomesAndVertices) {
+    settings.adapt_tile = false; // pixels without reuse have no shifts
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
-    int joined = 0;
+    int reconnected = 0;
     for (int x = 0; x < size.x; ++x) {
         const Inspection seen =
             inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {x, 8});
@@ -95,19 +95,19 @@ TEST_P(Inspected, ShiftsAreToldWithTheirOutcomesAndVertices) {
                 EXPECT_NE(s.to, seen.pixel);
                 EXPECT_EQ(s.is_tried && s.outcome == ShiftOutcome::ok, !is_black(s.value));
                 EXPECT_EQ(s.ratio > 0, !is_black(s.value));
-                joined += !s.offset.empty() && !s.beyond.empty();
-                if (!s.beyond.empty()) { // it is the base path's own end
+                reconnected += !s.offset.empty() && !s.beyond.empty();
+                if (!s.beyond.empty()) { // the reused part ends as the base path does
                     EXPECT_EQ(s.beyond.back(), seen.path.back().position);
                 }
             }
         }
     }
-    EXPECT_EQ(joined > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
+    EXPECT_EQ(reconnected > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
 }
 
-/// What the table of vertices says, multiplied out, is what the estimator weighs with.
-TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
-    settings.adapt_tile = false; // pixels that share nothing have no shifts
+/// The product of the Jacobians of a shift's steps is the Jacobian that the estimator uses.
+TEST_P(Inspected, StepsGiveTheRatioAndTheJacobian) {
+    settings.adapt_tile = false; // pixels without reuse have no shifts
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
     int seen_steps = 0, stretched = 0;
@@ -132,7 +132,8 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
                 ++seen_steps;
                 stretched += std::abs(jacobian - 1) > 1e-3f;
                 EXPECT_FLOAT_EQ(s->steps.back().shifted.ratio, s->ratio);
-                // The pixel gets at least as much of all light paths together as of this one.
+                // The shift's value sums over all light paths of the base path, so this light path is at most as
+                // bright.
                 EXPECT_GE(luminance(s->value) * 1.0001f, luminance(s->steps.back().shifted.value) * s->weight);
             }
     }
@@ -140,10 +141,9 @@ TEST_P(Inspected, StepsLeadToTheRatioAndTheJacobian) {
     EXPECT_EQ(stretched > 0, settings.method != Method::pt && settings.shift != ShiftKind::replay);
 }
 
-/// Shifted paths have footprints as if their own pixel had drawn them; so has a pixel's own path, which it did
-/// draw.
+/// The footprints of a shifted path are those of a path that its pixel samples. The pixel's own path confirms it.
 TEST_P(Inspected, ShiftedPathsHaveFootprints) {
-    settings.adapt_tile = false; // pixels that share nothing have no shifts
+    settings.adapt_tile = false; // pixels without reuse have no shifts
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
     int own = 0, shifted = 0;
@@ -161,9 +161,9 @@ TEST_P(Inspected, ShiftedPathsHaveFootprints) {
                         continue;
                     }
                     if (&set != seen.sets.data())
-                        continue; // another path of a pixel that shares nothing
+                        continue; // another path of a pixel without reuse
                     ++own;
-                    // Of balls, the normals of shading are not the triangles'.
+                    // On spheres, shading normals differ from the normals of the triangles.
                     const bool is_flat = i == 0 && s->steps[i].vertex.bsdf != "dielectric";
                     EXPECT_NEAR(width / seen.path[i].footprint_width, 1, is_flat ? 1e-4f : 0.2f);
                 }
@@ -174,8 +174,8 @@ TEST_P(Inspected, ShiftedPathsHaveFootprints) {
     EXPECT_GT(own, 0);
 }
 
-/// The tile whole: what its pixels get is what the pass adds, whichever of its pixels was asked for.
-TEST_P(Inspected, TheTileIsThatOfThePass) {
+/// The inspection of a whole tile gives each pixel the radiance that the pass adds.
+TEST_P(Inspected, TileMatchesThePass) {
     Render render(scene, scene->camera(), size, settings);
     render.pass(pool);
     const RgbImage primal = render.images().radiance();
@@ -183,7 +183,8 @@ TEST_P(Inspected, TheTileIsThatOfThePass) {
         inspect_tile(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {12, 7});
     EXPECT_TRUE(tile.tile.contains({12, 7}));
     int bases = 0;
-    std::map<std::pair<int, int>, std::vector<Rgb>> served; // a pixel that shares nothing has a set for each path
+    std::map<std::pair<int, int>, std::vector<Rgb>>
+        radiance_by_pixel; // a pixel without reuse has one set per path
     for (const InspectedSet& set : tile.sets) {
         bases += set.size();
         ASSERT_EQ(set.bases.size(), set.pixels.size());
@@ -195,18 +196,17 @@ TEST_P(Inspected, TheTileIsThatOfThePass) {
             if (set.is_border[static_cast<std::size_t>(m)] || settings.method == Method::gpt)
                 continue;
             const glm::ivec2 p = set.pixels[static_cast<std::size_t>(m)];
-            served[{p.x, p.y}].push_back(set.radiance(p));
+            radiance_by_pixel[{p.x, p.y}].push_back(set.radiance(p));
         }
     }
     EXPECT_EQ(bases, tile.base_count());
     const PixelRect inside = tile.tile.clipped(size);
     if (settings.method != Method::gpt) {
-        EXPECT_EQ(served.size(), static_cast<std::size_t>(inside.width() * inside.height()));
+        EXPECT_EQ(radiance_by_pixel.size(), static_cast<std::size_t>(inside.width() * inside.height()));
     }
-    for (const auto& [p, found] : served) {
+    for (const auto& [p, found] : radiance_by_pixel) {
         Rgb mean = std::accumulate(found.begin(), found.end(), Rgb(0)) / static_cast<float>(found.size());
-        if (settings.method ==
-            Method::gpr) { // where other tiles have it in their sets, too, what it gets is a mean
+        if (settings.method == Method::gpr) { // a pixel in the sets of several tiles gets their mean
             const Inspection seen =
                 inspect(*scene, scene->camera(), size, settings, *render.newest_learned(), 0, {p.first, p.second});
             EXPECT_TRUE(std::ranges::any_of(
@@ -218,7 +218,7 @@ TEST_P(Inspected, TheTileIsThatOfThePass) {
     }
 }
 
-TEST(Inspection, TilesAreThoseOfThePass) {
+TEST(Inspection, SetsAreTheTilesOfThePass) {
     RenderSettings settings;
     settings.method = Method::pr;
     settings.tile = 5;
@@ -233,24 +233,24 @@ TEST(Inspection, TilesAreThoseOfThePass) {
         EXPECT_EQ(seen.sets[0].pixels.size(), static_cast<std::size_t>(split.width() * split.height()));
         for (const glm::ivec2 p : seen.sets[0].pixels)
             EXPECT_TRUE(split.contains(p));
-        int parts_with_it = 0;
+        int splits_with_pixel = 0;
         grid.for_each_split({grid.origin.x, grid.origin.y, 30, 20}, [&](PixelRect other, int) {
             if (other.contains({12, 7})) {
-                ++parts_with_it;
+                ++splits_with_pixel;
                 EXPECT_EQ(other.x0, split.x0);
                 EXPECT_EQ(other.y1, split.y1);
             }
         });
-        EXPECT_EQ(parts_with_it, 1);
+        EXPECT_EQ(splits_with_pixel, 1);
     }
 }
 
-TEST(Inspection, APixelOfGptSharesWithEachNeighbourOfItsBlock) {
+TEST(Inspection, GptPixelsReusePathsOfNeighboursInTheirBlock) {
     RenderSettings settings;
     settings.method = Method::gpt;
     settings.max_depth = 4;
     const auto scene = Room().build();
-    const glm::ivec2 image(50, 30); // blocks of 24 x 24
+    const glm::ivec2 image(50, 30); // blocks have 24 x 24 pixels
     ThreadPool pool{1};
     Render render(scene, scene->camera(), image, settings);
     render.pass(pool);
@@ -265,7 +265,7 @@ TEST(Inspection, APixelOfGptSharesWithEachNeighbourOfItsBlock) {
     }
 }
 
-TEST(Inspection, ProjectingUndoesTheCamerasRay) {
+TEST(Inspection, ProjectionInvertsTheCameraRay) {
     const auto scene = Room().build();
     const Projection projection(scene->camera(), size);
     const Ray ray = projection.ray({3.25f, 9.5f});

@@ -1,4 +1,4 @@
-// LearnedReuse of any pass, learned again for one tile: the bits of the render's own.
+// replay_learning() recomputes LearnedReuse of any pass for one tile, with the same bits as the render.
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
@@ -19,13 +19,13 @@ namespace {
 
 constexpr glm::ivec2 size(41, 26);
 
-/// A room in which tiles are cut into smaller ones here, and not there.
+/// Returns a room in which some tiles are split and others are not.
 std::shared_ptr<const Scene> half_lit_room() {
     SceneBuilder room;
     const int white = room.diffuse(Rgb(0.75f));
     room.room({white, white, white, room.mirror(), white});
     room.quad({-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, white, room.light(Rgb(9, 8, 6)));
-    room.quad({-1, -0.2f, -1}, {1.2f, 0, 0}, {0, 0, 2}, white); // below it, light comes from the walls alone
+    room.quad({-1, -0.2f, -1}, {1.2f, 0, 0}, {0, 0, 2}, white); // a shelf, below which light is indirect
     room.camera({0, 0, 3.4f}, {0, 0, 0}, 40);
     return room.build();
 }
@@ -44,14 +44,14 @@ std::string bytes_of(const Inspection& seen) {
     return bytes;
 }
 
-class PlanReplay : public testing::TestWithParam<RenderSettings> {};
+class LearningReplay : public testing::TestWithParam<RenderSettings> {};
 
-TEST_P(PlanReplay, SamplesOfAnyPassAreTakenAgainBitForBit) {
+TEST_P(LearningReplay, ReproducesSamplesOfAnyPassBitExactly) {
     const auto scene = half_lit_room();
     const RenderSettings settings = GetParam();
     Render render(scene, scene->camera(), size, settings);
     ThreadPool pool(2);
-    int otherwise = 0; // without knowing what passes before have seen
+    int different_without_learning = 0; // samples that differ without the learning of earlier passes
     for (int pass = 0; pass < 6; ++pass) {
         render.pass(pool);
         if (pass == 1 || pass == 3)
@@ -64,11 +64,11 @@ TEST_P(PlanReplay, SamplesOfAnyPassAreTakenAgainBitForBit) {
             const std::string own = sample(*render.newest_learned());
             EXPECT_EQ(sample(replay_learning(*scene, scene->camera(), size, settings, pass, pixel)), own)
                 << "pass " << pass << ": " << pixel.x << ", " << pixel.y;
-            otherwise += sample(LearnedReuse(size, settings)) != own;
+            different_without_learning += sample(LearnedReuse(size, settings)) != own;
         }
     }
-    EXPECT_EQ(otherwise > 0, (settings.adapt_tile && can_split_tiles(settings)) ||
-                                 settings.path_guiding == Guiding::on || has_positions(settings));
+    EXPECT_EQ(different_without_learning > 0, (settings.adapt_tile && can_split_tiles(settings)) ||
+                                                  settings.path_guiding == Guiding::on || has_positions(settings));
 }
 
 RenderSettings settings_of(Method method, int tile = 6) {
@@ -87,7 +87,7 @@ RenderSettings rooks() {
     return settings;
 }
 
-/// Only indirect light is shared, so that tiles are cut less.
+/// Returns settings that reuse only indirect light, so that fewer tiles are split.
 RenderSettings reconnection() {
     RenderSettings settings = settings_of(Method::pr, 16);
     settings.shift = ShiftKind::reconnection;
@@ -100,8 +100,8 @@ RenderSettings guided(Method method, Guiding when = Guiding::on) {
     return settings;
 }
 
-/// Where there is nothing to be learnt, no pass is looked at: two billion of them would take an hour.
-TEST(PlanReplayOfNothing, IsThereAtOnce) {
+/// If there is nothing to learn, no pass is replayed. Two billion passes would take an hour.
+TEST(LearningReplayOfNothing, ReturnsAtOnce) {
     const auto scene = half_lit_room();
     constexpr int pass = 2000000000;
     constexpr glm::ivec2 pixel(3, 4);
@@ -129,7 +129,7 @@ TEST(PlanReplayOfNothing, IsThereAtOnce) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, PlanReplay,
+INSTANTIATE_TEST_SUITE_P(Methods, LearningReplay,
                          testing::Values(settings_of(Method::pt), settings_of(Method::pr),
                                          settings_of(Method::gpt), settings_of(Method::gpr), rooks(),
                                          reconnection(), guided(Method::pt), guided(Method::gpr),

@@ -1,5 +1,5 @@
-// The unit of light does not matter: with all lights 1024 times as bright, the same paths are traced, shifted and
-// kept, and the picture is 1024 times as bright, to the last bit, as floats are scaled exactly by powers of two.
+// The unit of radiance does not matter. With all lights 1024 times as bright, the same paths are traced, shifted
+// and kept, and the image is exactly 1024 times as bright, because scaling floats by powers of two is exact.
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/rooms.h"
@@ -19,9 +19,9 @@ namespace tessera::test {
 namespace {
 
 constexpr glm::ivec2 size(25, 19);
-constexpr int passes = 8; // tiles are cut by what earlier passes found
+constexpr int passes = 8; // tile splitting uses the results of earlier passes
 
-/// A room with lights of all kinds and materials with and without half vectors.
+/// Returns a room with all kinds of lights, and materials with and without half vectors.
 std::shared_ptr<const Scene> room(float scale) {
     OpenRoom r;
     std::vector<Rgb> sky;
@@ -60,7 +60,7 @@ int unequal(const RgbImage& a, const RgbImage& b, float scale) {
 
 class LightUnit : public testing::TestWithParam<Method> {};
 
-TEST_P(LightUnit, DoesNotMatter) {
+TEST_P(LightUnit, ScalesTheImageExactly) {
     RenderSettings settings;
     settings.method = GetParam();
     settings.max_depth = 5;
@@ -79,7 +79,7 @@ TEST_P(LightUnit, DoesNotMatter) {
         EXPECT_EQ(one.counters.reused_paths, other.counters.reused_paths);
     }
     if (reuses_paths(GetParam())) {
-        EXPECT_GT(one.counters.skipped_paths, 100u); // or the roulette says nothing
+        EXPECT_GT(one.counters.skipped_paths, 100u); // the test needs Russian roulette to reject paths
     }
 }
 

@@ -1,4 +1,4 @@
-// Many passes on a tiny image: the mean neither drifts nor overflows.
+// The mean of many passes of a tiny image neither drifts nor overflows.
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/rooms.h"
@@ -18,11 +18,11 @@ namespace tessera::test {
 namespace {
 
 constexpr glm::ivec2 size(4, 3);
-constexpr int batches = 20; // in each half
+constexpr int batches_per_half = 20;
 
 using Means = std::vector<glm::dvec3>;
 
-/// Sums of everything that was measured: primal, dx and dy of each pixel, and of all pixels together.
+/// Returns the sums over passes of primal, dx and dy, for each pixel and for all pixels together.
 Means sums_of(const Render& render) {
     const GradientImages images = render.images();
     Means sums;
@@ -38,8 +38,8 @@ Means sums_of(const Render& render) {
     return sums;
 }
 
-/// How many standard errors lie between the means of the first and the second half, by the means of batches: the
-/// largest of all pixels, buffers and channels.
+/// Returns the difference between the means of the first and the second half of the passes, in standard errors
+/// estimated from batch means. It is the largest of all pixels, buffers and channels.
 double drift(int passes) {
     RenderSettings settings;
     settings.method = Method::gpr;
@@ -52,8 +52,8 @@ double drift(int passes) {
     std::vector<glm::dvec3> sum[2], squares[2];
     for (int half = 0; half < 2; ++half) {
         sum[half] = squares[half] = Means(before.size(), glm::dvec3(0));
-        for (int batch = 0; batch < batches; ++batch) {
-            const int count = passes / (2 * batches);
+        for (int batch = 0; batch < batches_per_half; ++batch) {
+            const int count = passes / (2 * batches_per_half);
             for (int pass = 0; pass < count; ++pass)
                 render.pass(pool);
             const Means after = sums_of(render);
@@ -67,28 +67,28 @@ double drift(int passes) {
     }
     EXPECT_EQ(render.counters().refused_samples, 0u);
     const auto variance_of_mean = [&](int half, std::size_t i, int c) {
-        const double mean = sum[half][i][c] / batches;
-        return (squares[half][i][c] / batches - mean * mean) / (batches - 1);
+        const double mean = sum[half][i][c] / batches_per_half;
+        return (squares[half][i][c] / batches_per_half - mean * mean) / (batches_per_half - 1);
     };
     double largest = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const double error = std::sqrt(variance_of_mean(0, i, c) + variance_of_mean(1, i, c));
             if (error > 0) // the last column and row have no gradients
-                largest = std::max(largest, std::abs(sum[0][i][c] - sum[1][i][c]) / batches / error);
+                largest = std::max(largest, std::abs(sum[0][i][c] - sum[1][i][c]) / batches_per_half / error);
         }
     return largest;
 }
 
-// There are 90 values that are not 0, few of them independent, with Student's t of 38 degrees: passed by chance
-// once in about a thousand seeds.
+// About 90 values differ from 0, and few are independent. With Student's t of 38 degrees of freedom, about one
+// seed in a thousand exceeds the limit by chance.
 constexpr double limit = 4.5;
 
-TEST(LongRun, TheMeanDoesNotDrift) {
+TEST(LongRun, MeanDoesNotDrift) {
     EXPECT_LT(drift(2000), limit);
 }
 
-TEST(LongRun, SlowTheMeanOfManyPassesDoesNotDrift) {
+TEST(LongRun, SlowMeanOfManyPassesDoesNotDrift) {
     EXPECT_LT(drift(100'000), limit);
 }
 

@@ -1,4 +1,4 @@
-// Memory is asked for before it is taken: by the threads of a render, the BVH, and reconstructions.
+// The threads of a render, the BVH and reconstructions check the available memory before they allocate.
 
 #include "render/io/available_memory.h"
 #include "render/run/checked_reconstruction.h"
@@ -28,7 +28,7 @@ std::string refusal(rlim_t bytes, const std::function<void()>& work) {
     return "not refused";
 }
 
-class AskedMemory : public testing::Test {
+class MemoryCheck : public testing::Test {
 protected:
     void SetUp() override {
         if (!can_limit_memory)
@@ -36,7 +36,7 @@ protected:
     }
 };
 
-TEST_F(AskedMemory, OfThreads) {
+TEST_F(MemoryCheck, RefusesThreads) {
     const auto scene = Room().build();
     RenderSettings settings;
     settings.method = Method::gpr;
@@ -44,21 +44,21 @@ TEST_F(AskedMemory, OfThreads) {
     ThreadPool pool(4);
     const std::string text = refusal(2 << 20, [&] { render.pass(pool); });
     EXPECT_EQ(text.find("4 threads need "), 0u) << text;
-    EXPECT_TRUE(render.pass(pool)); // nothing is broken by it
+    EXPECT_TRUE(render.pass(pool)); // the render is usable after the error
     EXPECT_GT(Render::bytes({32, 32}, settings, 5), Render::bytes({32, 32}, settings, 4));
 }
 
-TEST_F(AskedMemory, OfABvh) {
+TEST_F(MemoryCheck, RefusesABvh) {
     std::vector<Shape> shapes(1);
     shapes[0].mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     shapes[0].mesh.triangles.assign(1'000'000, glm::uvec3(0, 1, 2));
     const std::string text = refusal(50 << 20, [&] { Intersector intersector(shapes); });
     EXPECT_EQ(text.find("1000000 triangles in a BVH need 130 MiB of memory, and "), 0u) << text;
     const Intersector intersector(shapes);
-    EXPECT_LT(intersector.bytes(), 136'000'000u); // what is kept of what was asked for
+    EXPECT_LT(intersector.bytes(), 136'000'000u); // memory kept after the build
 }
 
-TEST_F(AskedMemory, OfAReconstruction) {
+TEST_F(MemoryCheck, RefusesAReconstruction) {
     const RgbImage black(640, 480);
     const GradientImages images{black, black, black, {}};
     Reconstructor reconstructor;
@@ -68,7 +68,7 @@ TEST_F(AskedMemory, OfAReconstruction) {
     EXPECT_EQ(reconstruct_checked(reconstructor, images, {Norm::weighted}).image.width(), 640);
 }
 
-TEST_F(AskedMemory, NamesWhatRanOutOfItUnforeseen) {
+TEST_F(MemoryCheck, NamesWhatAnUnforeseenFailureNeeded) {
     const auto fail = [] { throw std::bad_alloc(); };
     EXPECT_EQ(refusal(1 << 30, [&] { with_memory_for("the scene box.xml", fail); }),
               "there is not enough memory for the scene box.xml");

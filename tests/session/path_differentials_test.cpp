@@ -1,6 +1,6 @@
-// Path differentials against paths of which one random number is moved by little.
-#include "render/paths/base_path.h"
+// Path differentials, compared with finite differences of replayed paths in one random number.
 #include "render/inspect/path_differentials.h"
+#include "render/paths/base_path.h"
 #include "tests/support/rooms.h"
 
 #include <algorithm>
@@ -21,8 +21,7 @@ namespace {
 
 constexpr glm::ivec2 size(64, 48);
 
-/// Where a path goes by given numbers: two for the pixel, two for each scatter. It is cut short where a lobe that
-/// was chosen is another one, or where nothing is met.
+/// Random numbers of a path: two for the pixel, two for each non-delta scattering event, and the lobe choices.
 struct Numbers {
     std::vector<float> u;
     std::vector<float> lobes;
@@ -43,9 +42,11 @@ Numbers numbers_of(const BasePath& path, glm::vec2 pixel) {
 
 struct Place {
     glm::vec3 position, normal;
-    float log_value; ///< of what the scatters before it do to light, f cos
+    float log_value; ///< natural logarithm of the product of f cos of the scattering events before the vertex
 };
 
+/// Traces the path of these numbers. It ends early if a ray misses the scene or a sample changes between delta and
+/// non-delta.
 std::vector<Place> replay(const Tracer& tracer, const Projection& projection, const Numbers& n) {
     std::vector<Place> places;
     Vertex x;
@@ -67,18 +68,18 @@ std::vector<Place> replay(const Tracer& tracer, const Projection& projection, co
     return places;
 }
 
-/// Derivatives of vertex i by number j.
+/// Derivatives of vertex i with respect to number j, by finite differences.
 struct Measured {
     glm::vec3 position;
     float gradient;
 };
 
-/// Empty: paths nearby leave its surface, or it is not linear there.
+/// Returns empty if neighbouring paths leave the surface, or the position is not linear in the number.
 std::optional<Measured> measured(const Tracer& tracer, const Projection& projection, const Numbers& n,
                                  std::size_t i, std::size_t j, float step) {
-    const auto at = [&](float by) -> std::optional<Place> {
+    const auto at = [&](float offset) -> std::optional<Place> {
         Numbers moved = n;
-        moved.u[j] += by;
+        moved.u[j] += offset;
         if (j >= 2 && (moved.u[j] <= 0 || moved.u[j] >= 1))
             return {};
         const std::vector<Place> places = replay(tracer, projection, moved);
@@ -99,13 +100,13 @@ struct Tally {
     std::vector<double> errors, gradient_errors;
 };
 
-/// What that share of the numbers is below.
-double below(std::vector<double>& numbers, double share) {
+/// Returns the quantile of the numbers. `probability` is in [0, 1).
+double quantile(std::vector<double>& numbers, double probability) {
     std::sort(numbers.begin(), numbers.end());
-    return numbers[static_cast<std::size_t>(share * double(numbers.size()))];
+    return numbers[static_cast<std::size_t>(probability * double(numbers.size()))];
 }
 
-/// A base path with the derivatives of its vertices.
+/// Base path with the derivatives of its vertices.
 struct Differentiated {
     const Tracer& tracer;
     const Projection& projection;
@@ -140,7 +141,7 @@ Tally compare(const Scene& scene) {
             for (int k = 0; k < d.vertices[i].count; ++k) {
                 const auto j = static_cast<std::size_t>(k);
                 const auto truth = measured(d.tracer, d.projection, n, i, j, j < 2 ? 0.05f : 5e-4f);
-                // Tiny ones are rounding.
+                // Tiny derivatives are dominated by rounding.
                 if (!truth || glm::length(truth->position) * (j < 2 ? 0.05f : 5e-4f) <= 2e-4f)
                     continue;
                 tally.errors.push_back(double(glm::distance(truth->position, d.vertices[i].position[k])) /
@@ -153,34 +154,34 @@ Tally compare(const Scene& scene) {
     return tally;
 }
 
-TEST(PathDifferentials, AreThoseOfPathsThatAreReplayed) {
-    const auto judge = [](const char* name, const std::shared_ptr<const Scene>& scene) {
+TEST(PathDifferentials, MatchReplayedPaths) {
+    const auto expect_accurate = [](const char* name, const std::shared_ptr<const Scene>& scene) {
         Tally t = compare(*scene);
         ASSERT_GT(t.errors.size(), 500u) << name;
         ASSERT_GT(t.gradient_errors.size(), 200u) << name;
         std::printf(
             "%s: %zu derivatives, median %.2g, 99 %% below %.2g; %zu gradients, median %.2g, 90 %% below %.2g\n",
-            name, t.errors.size(), below(t.errors, 0.5), below(t.errors, 0.99), t.gradient_errors.size(),
-            below(t.gradient_errors, 0.5), below(t.gradient_errors, 0.9));
-        EXPECT_LT(below(t.errors, 0.5), 2e-4) << name;
-        EXPECT_LT(below(t.errors, 0.95), 2e-3) << name;
-        EXPECT_LT(below(t.errors, 0.99), 0.03) << name;
-        EXPECT_LT(below(t.gradient_errors, 0.5), 1e-3) << name;
-        EXPECT_LT(below(t.gradient_errors, 0.9), 0.01) << name;
+            name, t.errors.size(), quantile(t.errors, 0.5), quantile(t.errors, 0.99), t.gradient_errors.size(),
+            quantile(t.gradient_errors, 0.5), quantile(t.gradient_errors, 0.9));
+        EXPECT_LT(quantile(t.errors, 0.5), 2e-4) << name;
+        EXPECT_LT(quantile(t.errors, 0.95), 2e-3) << name;
+        EXPECT_LT(quantile(t.errors, 0.99), 0.03) << name;
+        EXPECT_LT(quantile(t.gradient_errors, 0.5), 1e-3) << name;
+        EXPECT_LT(quantile(t.gradient_errors, 0.9), 0.01) << name;
     };
-    judge("diffuse", Room().build());
+    expect_accurate("diffuse", Room().build());
     {
         Room r;
         r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.mirror());
         r.sphere({0.5f, -0.5f, 0.2f}, 0.4f, r.glass());
-        judge("mirror and glass", r.build());
+        expect_accurate("mirror and glass", r.build());
     }
     {
         Room r;
         r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.conductor(0.2f));
         r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.phong(Rgb(0.3f), Rgb(0.4f), 40));
         r.sphere({0.5f, -0.5f, 0.2f}, 0.4f, r.plastic(Rgb(0.3f), 0.1f));
-        judge("metal, Phong, plastic", r.build());
+        expect_accurate("metal, Phong, plastic", r.build());
     }
 }
 
@@ -200,8 +201,8 @@ TEST(PathDifferentials, ReducedSumsKeepMostOfTheirArea) {
     }
 }
 
-/// A pixel's footprint at x_1 is what lies between its neighbours.
-TEST(PathDifferentials, AtTheFirstVertexCoverAPixel) {
+/// A pixel's footprint at x_1 is the parallelogram between the points that neighbouring pixels see.
+TEST(PathDifferentials, CoverAPixelAtTheFirstVertex) {
     int count = 0;
     for_paths(*Room().build(), [&](const Differentiated& d) {
         if (d.vertices.empty())
@@ -221,15 +222,16 @@ TEST(PathDifferentials, AtTheFirstVertexCoverAPixel) {
     EXPECT_GT(count, 300);
 }
 
-/// Local deltas are those of paths that do not split; and within any delta light changes by no more than it may.
-TEST(PathDifferentials, DeltasAreOfTheirRules) {
+/// Local deltas follow 1/sqrt(samples) and 1/sqrt(splits). With most_change, the light of a path changes by at
+/// most that fraction.
+TEST(PathDifferentials, DeltasFollowTheirRules) {
     int count = 0, limited = 0;
     for_paths(*Room().build(), [&](const Differentiated& d) {
         for (const PathDerivatives& x : d.vertices) {
             const NumberVectors local = differential_vectors(x, {16, false}),
                                 split = differential_vectors(x, {16, false, 0, 4}),
                                 all = differential_vectors(x, {16, true}),
-                                held = differential_vectors(x, {16, true, 0.1f});
+                                limited_change = differential_vectors(x, {16, true, 0.1f});
             const float even = std::pow(16 * x.chance, -1.0f / static_cast<float>(x.count));
             for (int j = 0; j < x.count; ++j, ++count) {
                 const float whole = glm::length(x.position[j]);
@@ -239,9 +241,9 @@ TEST(PathDifferentials, DeltasAreOfTheirRules) {
                 EXPECT_NEAR(glm::length(split[j]) / whole, j < 2 ? 0.25f : 0.5f, 1e-4f);
                 EXPECT_NEAR(glm::length(all[j]) / whole, std::min(even, 1.0f), 1e-4);
                 const float change =
-                    std::abs(x.gradient[static_cast<std::size_t>(j)]) * glm::length(held[j]) / whole;
+                    std::abs(x.gradient[static_cast<std::size_t>(j)]) * glm::length(limited_change[j]) / whole;
                 EXPECT_LE(change, 0.1f * 1.0001f);
-                limited += glm::length(held[j]) < 0.999f * glm::length(all[j]);
+                limited += glm::length(limited_change[j]) < 0.999f * glm::length(all[j]);
             }
         }
     });
@@ -249,8 +251,8 @@ TEST(PathDifferentials, DeltasAreOfTheirRules) {
     EXPECT_GT(limited, 100);
 }
 
-/// The two numbers a vertex know about how large the sum of all vectors is, where all is diffuse and flat.
-TEST(PathDifferentials, TheScalarFormKnowsAreas) {
+/// The scalar form approximates the area of the sum of all vectors, if all surfaces are diffuse and flat.
+TEST(PathDifferentials, ScalarFormApproximatesAreas) {
     for (const std::size_t i : {0, 1}) {
         std::vector<double> ratios;
         std::vector<float> widths;
@@ -264,14 +266,14 @@ TEST(PathDifferentials, TheScalarFormKnowsAreas) {
                 ratios.push_back(double(widths[i] * widths[i] / all));
         });
         ASSERT_GT(ratios.size(), 200u);
-        // At x1 it has the pixel of the middle of the picture, which is the largest.
-        EXPECT_NEAR(below(ratios, 0.5), 1, i == 0 ? 0.25 : 0.15) << i;
+        // At x_1, it uses the pixel in the middle of the picture, which is the largest.
+        EXPECT_NEAR(quantile(ratios, 0.5), 1, i == 0 ? 0.25 : 0.15) << i;
     }
 }
 
-/// Of a BSDF with one lobe, both numbers' directions span 1 / pdf; of one with several that do not overlap, the
-/// chance of the one that was drawn times that.
-TEST(PathDifferentials, ChoicesAmongLobesHaveTheirChances) {
+/// The choice probability is 1 for a BSDF with one lobe. For lobes that do not overlap, it is the probability of
+/// the sampled lobe.
+TEST(PathDifferentials, LobeChoicesHaveTheirProbabilities) {
     Room r;
     r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.conductor(0.3f));
     r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.plastic(Rgb(0.3f), 0));
@@ -303,13 +305,14 @@ TEST(PathDifferentials, ChoicesAmongLobesHaveTheirChances) {
         }
     });
     ASSERT_GT(alone.size(), 500u);
-    EXPECT_LT(below(alone, 0.95), 1e-3) << "but where numbers are mapped to disks with a kink";
+    EXPECT_LT(quantile(alone, 0.95), 1e-3) << "except at kinks of the mapping to disks";
     EXPECT_GT(coated, 20);
     EXPECT_GT(delta, 20);
 }
 
-/// Footprints of light samples, by their own numbers: how the light that comes from there changes as they do.
-TEST(PathDifferentials, LightSamplesHaveTheirGradients) {
+/// The gradient of a light sample is the derivative of its log contribution with respect to its two random
+/// numbers.
+TEST(PathDifferentials, LightSamplesHaveGradients) {
     Room r;
     r.quad({-1, -0.99f, 1}, {2, 0, 0}, {0, 0, -2}, r.conductor(0.3f));
     std::vector<double> errors;
@@ -338,8 +341,8 @@ TEST(PathDifferentials, LightSamplesHaveTheirGradients) {
         }
     });
     ASSERT_GT(errors.size(), 300u);
-    EXPECT_LT(below(errors, 0.5), 1e-3);
-    EXPECT_LT(below(errors, 0.95), 0.02);
+    EXPECT_LT(quantile(errors, 0.5), 1e-3);
+    EXPECT_LT(quantile(errors, 0.95), 0.02);
 }
 
 } // namespace

@@ -8,13 +8,13 @@ namespace {
 constexpr double budget = 0.06;
 constexpr glm::ivec2 size{1280, 720};
 
-TEST(Previews, AreFollowedByFinerOnesOfTheSameRequest) {
+TEST(Previews, FinerOnesFollowForTheSameRequest) {
     Previews previews;
     EXPECT_EQ(previews.divisor(1, size), 4);
     previews.count(1, 4, 2 * budget, budget);
     EXPECT_FALSE(previews.is_first(1));
-    EXPECT_EQ(previews.divisor(1, size), 0); // a picture as fine as this is followed by the whole one
-    EXPECT_EQ(previews.divisor(2, size), 8); // of which there were too few
+    EXPECT_EQ(previews.divisor(1, size), 0); // the whole picture follows the finest preview
+    EXPECT_EQ(previews.divisor(2, size), 8); // the first preview exceeded its budget
     previews.count(2, 8, budget / 2, budget);
     EXPECT_EQ(previews.divisor(2, size), 4);
     previews.count(2, 4, 2 * budget, budget);
@@ -24,16 +24,17 @@ TEST(Previews, AreFollowedByFinerOnesOfTheSameRequest) {
     EXPECT_EQ(previews.divisor(4, size), 16);
 }
 
-TEST(Previews, AreFinerAgainWhereOneThatFollowedWasSoonEnough) {
+TEST(Previews, BecomeFinerWhenAFollowingOneIsFast) {
     Previews previews;
-    previews.count(1, 4, 1.1 * budget, budget); // the machine was busy
-    previews.count(2, 8, 0.3 * budget, budget); // and has fixed costs: this alone says nothing of finer ones
+    previews.count(1, 4, 1.1 * budget, budget); // over budget on a busy machine
+    previews.count(2, 8, 0.3 * budget,
+                   budget); // fixed costs make one coarse preview inconclusive about finer ones
     EXPECT_EQ(previews.divisor(3, size), 8);
     previews.count(2, 4, 0.5 * budget, budget);
     EXPECT_EQ(previews.divisor(3, size), 4);
 }
 
-TEST(Previews, AreNeverSoSmallThatThereIsNothingToSee) {
+TEST(Previews, KeepAMinimumSize) {
     Previews previews;
     previews.count(1, 4, 100, budget);
     EXPECT_EQ(previews.divisor(2, size), 16);
@@ -42,8 +43,8 @@ TEST(Previews, AreNeverSoSmallThatThereIsNothingToSee) {
     EXPECT_EQ(previews.divisor(2, {1, 1}), 4);
 }
 
-TEST(Previews, AreAsFineAsTimeAllowsAndDoNotGoBackAndForth) {
-    for (const double finest : {0.01, 0.5, 0.9, 1.1, 3.0, 5.0, 100.0}) { // budgets that one of the finest takes
+TEST(Previews, AreAsFineAsTheBudgetAllowsWithoutOscillation) {
+    for (const double finest : {0.01, 0.5, 0.9, 1.1, 3.0, 5.0, 100.0}) { // time of the finest preview, in budgets
         const auto seconds = [&](int divisor) { return finest * budget * 16 / (divisor * divisor); };
         Previews previews;
         int last = 0, changes = 0;

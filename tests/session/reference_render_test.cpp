@@ -1,4 +1,4 @@
-// References in the making: what ends them early changes no bit.
+// Rendering of references. Interruptions do not change a bit of the result.
 #include "render/io/memory.h"
 #include "render/run/checkpoint.h"
 #include "render/run/reference_render.h"
@@ -37,7 +37,7 @@ struct References : testing::Test {
 
     ReferenceRender begin(const char* name) { return {file(name), subject, recipe, pool}; }
 
-    /// Renders until it has so many samples; empty: it was complete before.
+    /// Renders until the reference has `spp` samples per pixel. Returns empty if it completes before.
     std::optional<int> run_to(const char* name, int spp) {
         ReferenceRender render = begin(name);
         if (render.run([&](const ReferenceRender& r) { return r.spp() < spp; }))
@@ -65,10 +65,10 @@ struct References : testing::Test {
     ReferenceRecipe recipe;
 };
 
-TEST_F(References, GoOnFromAnyPassToTheSameBits) {
+TEST_F(References, ResumeFromAnyPassWithTheSameBits) {
     const ReferenceImage whole = complete("whole.exr");
     EXPECT_FALSE(fs::exists(reference_checkpoint(file("whole.exr"))));
-    for (int spp : {1, 5, 8}) // after an odd number, one half is ahead
+    for (int spp : {1, 5, 8}) // after an odd number of samples, one half is ahead
         EXPECT_EQ(run_to("parts.exr", spp), spp);
     EXPECT_TRUE(fs::exists(reference_checkpoint(file("parts.exr"))));
     ReferenceRender render = begin("parts.exr");
@@ -82,8 +82,8 @@ TEST_F(References, GoOnFromAnyPassToTheSameBits) {
     EXPECT_FALSE(fs::exists(reference_checkpoint(file("parts.exr"))));
 }
 
-/// Asked for when a pass is about to begin: it does nothing, instead of all.
-TEST_F(References, AStopEndsThePassUnderWay) {
+/// A stop request before a pass prevents the pass.
+TEST_F(References, StopRequestPreventsThePass) {
     ReferenceRender render = begin("a.exr");
     std::stop_source stop;
     EXPECT_FALSE(render.run(
@@ -101,15 +101,15 @@ std::uint32_t bits_of(const RgbImage& image) {
     return checksum(std::as_bytes(std::span(image.data(), image.size())));
 }
 
-/// However often a pass is stopped, and whatever it has done by then, nothing is lost or counted twice.
-TEST_F(References, AStoppedPassGoesOnToTheSameBits) {
+/// A pass that is stopped at any time, any number of times, loses nothing and counts nothing twice.
+TEST_F(References, StoppedPassesResumeWithTheSameBits) {
     constexpr glm::ivec2 size(240, 180);
     constexpr int passes = 3;
     Render whole(scene, scene->camera(), size, recipe.settings),
         parts(scene, scene->camera(), size, recipe.settings);
     int stopped_within = 0;
     for (std::chrono::duration<double> time(1e-4); parts.spp() < passes; time *= 1.2) {
-        const std::uint32_t before = bits_of(parts.images().dx); // nothing before the first pass is whole
+        const std::uint32_t before = bits_of(parts.images().dx); // constant until a pass adds samples
         std::stop_source stop;
         const std::jthread ender([&] {
             std::this_thread::sleep_for(time);
@@ -128,21 +128,21 @@ TEST_F(References, AStoppedPassGoesOnToTheSameBits) {
     EXPECT_EQ(parts.counters().rays, whole.counters().rays);
 }
 
-TEST_F(References, AreKnownByTheirHeaderAlone) {
+TEST_F(References, AreRecognisedByTheirHeaderAlone) {
     complete("a.exr");
     fs::resize_file(file("a.exr"), fs::file_size(file("a.exr")) / 2);
     EXPECT_THROW(read_reference(file("a.exr")), std::runtime_error);
     EXPECT_TRUE(is_reference(file("a.exr")));
 }
 
-TEST_F(References, AnOddNumberOfSamplesIsOneMore) {
+TEST_F(References, OddNumbersOfSamplesAreRoundedUp) {
     recipe.spp = 5;
     ReferenceRender render = begin("odd.exr");
     ASSERT_TRUE(render.run([](const ReferenceRender&) { return true; }));
     EXPECT_EQ(render.spp(), 6);
 }
 
-TEST_F(References, KnowTheirErrorOnTheWay) {
+TEST_F(References, KnowTheirErrorWhileRendering) {
     ReferenceRender render = begin("a.exr");
     ASSERT_FALSE(render.run([&](const ReferenceRender& r) { return r.spp() < 4; }));
     const double early = render.error_so_far().relative_mse;
@@ -152,12 +152,12 @@ TEST_F(References, KnowTheirErrorOnTheWay) {
     EXPECT_EQ(error_of(render.finish()).relative_mse, late.relative_mse);
 }
 
-TEST_F(References, TheFileHasAVarianceForEachPixel) {
+TEST_F(References, FilesHoldTheVarianceOfEachPixel) {
     const ReferenceImage whole = complete("a.exr");
     const ExrFile file = read_exr(folder.path() / "a.exr");
     const RgbImage& variance = *find_layer(file, "variance");
     ASSERT_EQ(variance.size(), whole.mean.size());
-    double relative = 0; // as in recon/metrics/metrics.h, from the file's layers alone
+    double relative = 0; // relMSE as in recon/metrics/metrics.h, from the file's layers alone
     for (std::size_t i = 0; i < variance.size(); ++i)
         for (int c = 0; c < 3; ++c)
             relative += variance.data()[i][c] /
@@ -165,8 +165,7 @@ TEST_F(References, TheFileHasAVarianceForEachPixel) {
     EXPECT_NEAR(relative / static_cast<double>(variance.size()) / error_of(whole).relative_mse, 1, 1e-4);
 }
 
-/// The halves are reconstructed by L2, whatever they contain, and without gradients not at all. The header says
-/// so.
+/// Halves with gradients are reconstructed by L2, and halves without are not reconstructed. The header states it.
 TEST_F(References, HaveAFixedReconstruction) {
     const auto half_of = [&](unsigned i) {
         RenderSettings settings = recipe.settings;
@@ -191,13 +190,14 @@ TEST_F(References, HaveAFixedReconstruction) {
     EXPECT_EQ(to_string(origin_of(ReferenceImage{})), "an unknown method");
 }
 
-/// What halves differ by, over the brightness around; and one where a sample alone says what there is.
-TEST(Doubt, IsTheErrorAroundOrASpike) {
+/// Doubt is the standard error from the halves' difference in 3x3 pixels over their brightness, or 1 at marked
+/// pixels.
+TEST(Doubt, IsTheRelativeErrorOr1AtMarkedPixels) {
     std::array<RgbImage, 2> halves{RgbImage(9, 5, Rgb(0.98f)), RgbImage(9, 5, Rgb(0.98f))};
-    halves[0](2, 2) = Rgb(1.48f); // a difference of 0.5: an error of 0.25, in the 3x3 pixels around 0.25 / 3
-    Image<float> spikes(9, 5, 0);
-    spikes(7, 1) = 1;
-    const Image<float> doubt = doubt_of(halves, spikes);
+    halves[0](2, 2) = Rgb(1.48f); // a difference of 0.5 is an error of 0.25, and of 0.25 / 3 over 3x3 pixels
+    Image<float> marked(9, 5, 0);
+    marked(7, 1) = 1;
+    const Image<float> doubt = doubt_of(halves, marked);
     EXPECT_NEAR(doubt(2, 2), 0.25 / 3 / (0.98 + 0.25 / 9 + 0.0098), 1e-4);
     EXPECT_EQ(doubt(2, 2), doubt(1, 1));
     EXPECT_EQ(doubt(4, 2), 0);
@@ -206,8 +206,8 @@ TEST(Doubt, IsTheErrorAroundOrASpike) {
     EXPECT_EQ(doubt_of({RgbImage(2, 2, Rgb(0)), RgbImage(2, 2, Rgb(0))}, Image<float>(2, 2, 0))(1, 1), 0);
 }
 
-/// A lamp that is found only by hitting it, with a few samples: their pixels are known to say little.
-TEST_F(References, DoubtWhatRestsOnOneSample) {
+/// Paths find the lamp only by hitting it. Pixels that rest on one such sample are in doubt.
+TEST_F(References, DoubtPixelsThatRestOnOneSample) {
     SceneBuilder builder;
     const int white = builder.diffuse(Rgb(0.7f));
     builder.quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, white);
@@ -226,13 +226,14 @@ TEST_F(References, DoubtWhatRestsOnOneSample) {
     EXPECT_EQ((*layer)(3, 3).x, few.doubt(3, 3));
 }
 
-/// Light that nobody has found may be there all the same; where there is nothing to see, black is right.
-TEST_F(References, DoubtWhatNobodyFoundLightIn) {
+/// A black pixel on a surface is in doubt, because its light may be undiscovered. A pixel without surface is not.
+TEST_F(References, DoubtBlackSurfaces) {
     SceneBuilder builder;
     const int lamp = builder.light(Texture(Rgb(1)));
     const int white = builder.diffuse(Rgb(0.7f));
-    builder.quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, white);         // the left half; the right one is empty
-    builder.quad({-1, -1, -1}, {2, 0, 0}, {0, -2, 0}, white, lamp); // lights nothing that is seen
+    builder.quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0},
+                 white); // the left half of the picture; the right half is empty
+    builder.quad({-1, -1, -1}, {2, 0, 0}, {0, -2, 0}, white, lamp); // a lamp that lights no visible surface
     builder.camera({0, 0, 3}, {0, 0, 0}, 30);
     scene = builder.build();
     subject = {{}, scene, scene->camera()};
@@ -242,7 +243,7 @@ TEST_F(References, DoubtWhatNobodyFoundLightIn) {
     EXPECT_EQ(image.doubt(21, 8), 0);
 }
 
-TEST_F(References, AnotherCameraIsAnotherPicture) {
+TEST_F(References, RejectACheckpointOfAnotherPicture) {
     run_to("a.exr", 4);
     subject.camera.fov *= 0.9f;
     EXPECT_THAT(refusal("a.exr"), HasSubstr("is of another camera"));
@@ -254,9 +255,8 @@ TEST_F(References, AnotherCameraIsAnotherPicture) {
     EXPECT_THAT(refusal("a.exr"), HasSubstr("has 4 spp already, and 2 are asked for"));
 }
 
-/// What a version of the program keeps may be of another size than what the next one keeps.
-/// The mesh is out of sight of all of its samples: only what was loaded tells.
-TEST_F(References, AMeshChangedOutOfSightIsAnotherScene) {
+/// No sample sees the changed mesh, so only the checksum of the loaded scene reveals it.
+TEST_F(References, RejectACheckpointOfAChangedMeshOutOfSight) {
     const auto room = [](float far) {
         SceneBuilder builder;
         builder.quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, builder.diffuse(Rgb(0.5f)));
@@ -276,13 +276,14 @@ TEST_F(References, AMeshChangedOutOfSightIsAnotherScene) {
     EXPECT_EQ(begin_with(50)->spp_resumed(), 2);
     try {
         begin_with(51);
-        FAIL() << "goes on in another scene";
+        FAIL() << "the checkpoint resumed in another scene";
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("is of another scene (other geometry)"));
     }
 }
 
-TEST_F(References, AnotherVersionsCheckpointIsRefused) {
+/// Checkpoints of different versions of the program can differ in size.
+TEST_F(References, RejectACheckpointOfAnotherVersion) {
     run_to("a.exr", 4);
     const fs::path checkpoint = reference_checkpoint(file("a.exr"));
     Checkpoint old = read_checkpoint(checkpoint);
@@ -292,7 +293,7 @@ TEST_F(References, AnotherVersionsCheckpointIsRefused) {
     EXPECT_TRUE(fs::exists(checkpoint));
 }
 
-TEST_F(References, TheFileSaysFromWhere) {
+TEST_F(References, FilesHoldTheCamera) {
     recipe.spp = 2;
     subject.camera.fov = 17;
     complete("a.exr");

@@ -1,5 +1,5 @@
-// Shares of a reference: added up they are the same bits, whoever rendered them when; and what does not belong
-// together is not added up.
+// Shards of a reference. Their sum has the same bits, whatever the order and the interruptions. Shards that do not
+// belong together are not merged.
 #include "render/film/counters.h"
 #include "render/run/checkpoint.h"
 #include "render/run/reference_render.h"
@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-struct Shares : testing::Test {
-    Shares() {
+struct ReferenceShards : testing::Test {
+    ReferenceShards() {
         recipe.size = {24, 16};
         recipe.spp = 24;
         recipe.settings.max_depth = 3;
@@ -40,16 +40,17 @@ struct Shares : testing::Test {
         EXPECT_TRUE(render.run([](const ReferenceRender&) { return true; }));
         return render.finish();
     }
-    /// Renders share `number` of `count`; ended once after so many samples, if that is not 0.
-    fs::path share(int number, int count, const std::string& name = {}, int end_at = 0) {
-        ReferenceRecipe of_share = recipe;
-        of_share.share = {number, count};
+    /// Renders shard `number` of `count`. If `end_at` is not 0, rendering is interrupted once after that many
+    /// samples.
+    fs::path shard(int number, int count, const std::string& name = {}, int end_at = 0) {
+        ReferenceRecipe of_shard = recipe;
+        of_shard.share = {number, count};
         const fs::path path = file(name.empty() ? fmt::format("{}-of-{}.share", number, count) : name);
         if (end_at > 0) {
-            ReferenceRender render(path, subject, of_share, pool);
+            ReferenceRender render(path, subject, of_shard, pool);
             EXPECT_FALSE(render.run([&](const ReferenceRender& r) { return r.spp() < end_at; }));
         }
-        ReferenceRender render(path, subject, of_share, pool);
+        ReferenceRender render(path, subject, of_shard, pool);
         EXPECT_EQ(render.spp_resumed(), end_at);
         EXPECT_TRUE(render.run([](const ReferenceRender&) { return true; }));
         render.finish_shard();
@@ -73,11 +74,11 @@ struct Shares : testing::Test {
     ReferenceRecipe recipe;
 };
 
-TEST_F(Shares, OneOfOneIsTheWhole) {
+TEST_F(ReferenceShards, OneOfOneEqualsTheWhole) {
     for (const Method method : all_methods) {
         recipe.settings.method = method;
         const ReferenceImage expected = whole("whole.exr");
-        const ReferenceImage merged = merge_shards({share(1, 1)}, file("merged.exr"));
+        const ReferenceImage merged = merge_shards({shard(1, 1)}, file("merged.exr"));
         EXPECT_EQ(checksum_of(merged), checksum_of(expected)) << short_name(method);
         EXPECT_EQ(merged.settings, expected.settings);
         EXPECT_EQ(merged.camera, expected.camera);
@@ -86,29 +87,29 @@ TEST_F(Shares, OneOfOneIsTheWhole) {
     }
 }
 
-TEST_F(Shares, ComeToTheSameBitsInWhateverOrder) {
+TEST_F(ReferenceShards, HaveTheSameBitsInAnyOrder) {
     std::vector<fs::path> files;
     for (int number = 1; number <= 5; ++number)
-        files.push_back(share(number, 5));
+        files.push_back(shard(number, 5));
     const std::uint32_t expected = checksum_of(merge_shards(files, file("merged.exr")));
     EXPECT_EQ(checksum_of(read_reference(file("merged.exr"))), expected);
     std::reverse(files.begin(), files.end());
-    for (fs::path& path : files) // and rendered anew, in pieces
+    for (fs::path& path : files) // rendered again with interruptions
         fs::remove(path);
     for (int number = 5; number >= 1; --number)
-        share(number, 5, {}, 2);
+        shard(number, 5, {}, 2);
     EXPECT_EQ(checksum_of(merge_shards(files, file("again.exr"))), expected);
 }
 
-/// Of methods that learn nothing from earlier passes the shares' samples are those of the whole: but for the order
-/// in which they are summed, the picture is the same.
-TEST_F(Shares, HaveTheSamplesOfTheWhole) {
+/// If a method learns nothing from earlier passes, the shards have the samples of the whole reference. The
+/// pictures differ only by the order of summation.
+TEST_F(ReferenceShards, HaveTheSamplesOfTheWhole) {
     recipe.settings.method = Method::pt;
-    recipe.spp = 23; // 12 passes a half, for 5 shares
+    recipe.spp = 23; // 12 passes per half, divided among 5 shards
     const ReferenceImage expected = whole("whole.exr");
     std::vector<fs::path> files;
     for (int number = 1; number <= 5; ++number)
-        files.push_back(share(number, 5));
+        files.push_back(shard(number, 5));
     const ReferenceImage merged = merge_shards(files, file("merged.exr"));
     for (std::size_t i = 0; i < expected.mean.size(); ++i)
         for (int c = 0; c < 3; ++c) {
@@ -118,8 +119,8 @@ TEST_F(Shares, HaveTheSamplesOfTheWhole) {
     EXPECT_EQ(merged.settings, expected.settings);
 }
 
-/// In as many shares as there are passes nothing is learnt at all, and still it is the same picture in the mean.
-TEST_F(Shares, AreUnbiasedHoweverMany) {
+/// Shards of few passes learn nothing from earlier passes, but the expected picture is the same.
+TEST_F(ReferenceShards, AreUnbiasedForAnyNumber) {
     recipe.settings.seed += 100;
     recipe.spp = 1600;
     const ReferenceImage expected = whole("whole.exr");
@@ -129,7 +130,7 @@ TEST_F(Shares, AreUnbiasedHoweverMany) {
         recipe.settings.seed += 100;
         std::vector<fs::path> files;
         for (int number = 1; number <= 50; ++number)
-            files.push_back(share(number, 50, fmt::format("{}-{}.share", render, number)));
+            files.push_back(shard(number, 50, fmt::format("{}-{}.share", render, number)));
         const ReferenceImage merged = merge_shards(files, file(fmt::format("merged-{}.exr", render)));
         EXPECT_EQ(variance_of(merged).size(), expected.mean.size());
         double squares = 0;
@@ -141,22 +142,23 @@ TEST_F(Shares, AreUnbiasedHoweverMany) {
         difference += squares / static_cast<double>(expected.mean.size());
         errors += error_of(merged).relative_mse + error_of(expected).relative_mse;
     }
-    // The mean square of the differences is that of both errors, and no more.
+    // The mean squared difference is the sum of both errors.
     EXPECT_LT(difference, 1.5 * errors);
     EXPECT_GT(difference, 0.5 * errors);
 }
 
-TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
-    const fs::path one = share(1, 3), two = share(2, 3), three = share(3, 3);
+TEST_F(ReferenceShards, AreRejectedIfTheyDoNotBelongTogether) {
+    const fs::path one = shard(1, 3), two = shard(2, 3), three = shard(3, 3);
     EXPECT_EQ(refusal({one}), "these of 3 shares are missing: 2, 3");
-    EXPECT_THAT(refusal({one, two, three, share(2, 3, "twice.share")}),
+    EXPECT_THAT(refusal({one, two, three, shard(2, 3, "twice.share")}),
                 HasSubstr("2-of-3.share and " + file("twice.share").string() + " are both share 2 of 3"));
-    EXPECT_THAT(refusal({one, two, share(3, 4)}), HasSubstr("cannot be merged: the first is of 4 shares, not 3"));
+    EXPECT_THAT(refusal({one, two, shard(3, 4)}),
+                HasSubstr("cannot be merged: the first is of 4 shares, not 3"));
     const auto changed = [&](auto change) {
         const ReferenceRecipe before = recipe;
         const PictureSubject before_subject = subject;
         change();
-        const fs::path other = share(3, 3, "other.share");
+        const fs::path other = shard(3, 3, "other.share");
         recipe = before;
         subject = before_subject;
         return refusal({one, two, other});
@@ -174,8 +176,8 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
     EXPECT_THAT(refusal({file("plain.share")}), HasSubstr("is not a share of a reference"));
 }
 
-TEST_F(Shares, OfAnotherVersionAreRefused) {
-    const fs::path one = share(1, 2), two = share(2, 2);
+TEST_F(ReferenceShards, AreRejectedIfOfAnotherVersion) {
+    const fs::path one = shard(1, 2), two = shard(2, 2);
     const Checkpoint checkpoint = read_checkpoint(two);
     std::string header = checkpoint.identity;
     const std::string version = "\"version\":\"";
@@ -185,7 +187,7 @@ TEST_F(Shares, OfAnotherVersionAreRefused) {
     EXPECT_THAT(refusal({one, two}), HasSubstr("the one is of version \"0.0.9, not "));
 }
 
-TEST_F(Shares, ThereAreNoMoreThanPasses) {
+TEST_F(ReferenceShards, AreAtMostAsManyAsPasses) {
     recipe.spp = 8;
     recipe.share = {5, 5};
     EXPECT_THROW(passes_of(recipe), std::invalid_argument);

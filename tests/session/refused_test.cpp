@@ -1,4 +1,4 @@
-// Light beyond what floats hold: nothing that is not finite gets into a buffer, and what was left out is counted.
+// Radiance that overflows floats. Buffers stay finite, and invalid samples are counted.
 #include "render/inspect/inspection.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr glm::ivec2 size(17, 11);
 constexpr int passes = 4;
 
-/// What the lamp sends to most places is finite; what arrives close to it is not.
+/// Returns a room with a point light whose light is finite in most places, but overflows close to it.
 std::shared_ptr<const Scene> blinding_room() {
     Room r;
     r.point({{0, 0, -0.8f}, Rgb(3e38f, 1e38f, 2e38f)});
@@ -31,9 +31,9 @@ bool all_finite(const RgbImage& image) {
     return true;
 }
 
-class Refused : public testing::TestWithParam<Method> {};
+class InvalidSamples : public testing::TestWithParam<Method> {};
 
-TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
+TEST_P(InvalidSamples, BuffersStayFinite) {
     RenderSettings settings;
     settings.method = GetParam();
     settings.max_depth = 6;
@@ -54,7 +54,7 @@ TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
         const Counters& counters = render.counters();
         EXPECT_GT(counters.refused_samples, 0u);
         EXPECT_LT(counters.refused_samples,
-                  counters.rays[0] / 10); // not every pixel that such a path is shared with
+                  counters.rays[0] / 10); // counts invalid samples, not all pixels that reuse them
         ASSERT_FALSE(counters.first_invalid.list().empty());
         EXPECT_EQ(counters.first_invalid.list()[0].pass, 0);
         const std::string text = invalid_text(counters, settings.seed);
@@ -62,11 +62,11 @@ TEST_P(Refused, NothingThatIsNotFiniteGetsIntoABuffer) {
         EXPECT_NE(text.find("seed 77"), std::string::npos) << text;
         texts.insert(text);
     }
-    EXPECT_EQ(texts.size(), 1u); // whoever came first
+    EXPECT_EQ(texts.size(), 1u); // the text does not depend on the number of threads
 }
 
-/// Every sample of a short render, taken again from what names it: those that were refused are found to be so.
-void expect_found_again(RenderSettings settings, glm::ivec2 small) {
+/// Inspects every sample of a short render. Exactly the samples that the render counts as invalid are invalid.
+void expect_inspection_finds_invalid_samples(RenderSettings settings, glm::ivec2 small) {
     settings.max_depth = 6;
     settings.tile = 4;
     const auto scene = blinding_room();
@@ -77,7 +77,7 @@ void expect_found_again(RenderSettings settings, glm::ivec2 small) {
         for (int pass = 0; pass < passes; ++pass)
             render.pass(pool);
         const auto first = render.counters().first_invalid.list();
-        ASSERT_LT(first.size(), FirstInvalid::most); // all of them
+        ASSERT_LT(first.size(), FirstInvalid::most); // the list is complete
         refused += first.size();
         for (int i = 0; i < passes * small.x * small.y; ++i) {
             const InvalidSample sample{i / (small.x * small.y), i / small.x % small.y, i % small.x};
@@ -92,14 +92,15 @@ void expect_found_again(RenderSettings settings, glm::ivec2 small) {
     EXPECT_GT(refused, 0u);
 }
 
-TEST_P(Refused, SamplesAreFoundAgainByPixelPassAndSeed) {
+TEST_P(InvalidSamples, AreFoundByPixelPassAndSeed) {
     RenderSettings settings;
     settings.method = GetParam();
-    // Pixels that share nothing have several paths to be refused.
-    expect_found_again(settings, GetParam() == Method::gpr ? glm::ivec2(4, 3) : glm::ivec2(7, 5));
+    // Pixels without reuse have several paths that can be invalid.
+    expect_inspection_finds_invalid_samples(settings,
+                                            GetParam() == Method::gpr ? glm::ivec2(4, 3) : glm::ivec2(7, 5));
 }
 
-INSTANTIATE_TEST_SUITE_P(methods, Refused, testing::ValuesIn(all_methods),
+INSTANTIATE_TEST_SUITE_P(methods, InvalidSamples, testing::ValuesIn(all_methods),
                          [](const auto& p) { return std::string(short_name(p.param)); });
 
 } // namespace

@@ -1,4 +1,4 @@
-// Pictures of a pane that rests hang on nothing but its samples: they are made anew, and do not go on from others.
+// The picture of a resting pane depends only on its samples. It is reconstructed without cached results.
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "tests/support/eventually.h"
@@ -24,56 +24,57 @@ RenderRequest request() {
     return {scene, scene->camera(), glm::ivec2(48, 32), settings};
 }
 
-/// Waits for a picture of the first pane of which something holds. Empty: none came.
+/// Waits for a picture of the first pane that satisfies the predicate. Returns null if none comes.
 std::shared_ptr<const Snapshot> snapshot_of(const Session& session,
                                             const std::function<bool(const Snapshot&)>& holds) {
     std::shared_ptr<const Snapshot> s;
-    const auto comes = [&] {
+    const auto is_shown = [&] {
         s = session.latest(0);
         return s && !s->coarse() && s->reconstruction && holds(*s);
     };
-    return eventually(comes) ? s : nullptr;
+    return eventually(is_shown) ? s : nullptr;
 }
 
-bool goes_on(const Snapshot& s) {
+bool is_incremental(const Snapshot& s) {
     return s.reconstruction->goes_on;
 }
 
-bool is_made_anew(const Snapshot& s) {
+bool is_from_scratch(const Snapshot& s) {
     return s.reconstruction_spp == s.spp && !s.reconstruction->goes_on;
 }
 
-/// To the last bit what its images and settings give.
+/// Expects that the picture has the bits of a reconstruction from its images and settings.
 void expect_picture_of_its_samples(const Snapshot& s) {
-    const Reconstruction anew = reconstruct(*s.images, s.reconstructed_with);
-    ASSERT_EQ(s.reconstruction->image.size(), anew.image.size());
-    for (int y = 0; y < anew.image.height(); ++y)
-        for (int x = 0; x < anew.image.width(); ++x)
-            ASSERT_EQ(s.reconstruction->image(x, y), anew.image(x, y)) << x << ", " << y;
+    const Reconstruction expected = reconstruct(*s.images, s.reconstructed_with);
+    ASSERT_EQ(s.reconstruction->image.size(), expected.image.size());
+    for (int y = 0; y < expected.image.height(); ++y)
+        for (int x = 0; x < expected.image.width(); ++x)
+            ASSERT_EQ(s.reconstruction->image(x, y), expected.image(x, y)) << x << ", " << y;
 }
 
-TEST(RestingPicture, IsMadeAnewAtALimit) {
+TEST(RestingPicture, IsReconstructedFromScratchAtALimit) {
     Session session(1, 2, [] {});
     session.submit(0, request());
-    const auto going_on = snapshot_of(session, goes_on);
-    ASSERT_TRUE(going_on);
-    const int limit = going_on->spp + 50; // the render may be beyond it
+    const auto incremental = snapshot_of(session, is_incremental);
+    ASSERT_TRUE(incremental);
+    const int limit = incremental->spp + 50; // above the samples that the render may have
     session.set_pace({Pace::Equal::time, limit, 0});
-    const auto last = snapshot_of(session, [&](const Snapshot& s) { return s.spp >= limit && is_made_anew(s); });
+    const auto last =
+        snapshot_of(session, [&](const Snapshot& s) { return s.spp >= limit && is_from_scratch(s); });
     ASSERT_TRUE(last);
     expect_picture_of_its_samples(*last);
 }
 
-TEST(RestingPicture, IsMadeAnewWherePaused) {
+TEST(RestingPicture, IsReconstructedFromScratchWhenPaused) {
     Session session(1, 2, [] {});
     session.submit(0, request());
-    ASSERT_TRUE(snapshot_of(session, goes_on));
+    ASSERT_TRUE(snapshot_of(session, is_incremental));
     session.set_paused(true);
-    const auto last = snapshot_of(session, is_made_anew);
+    const auto last = snapshot_of(session, is_from_scratch);
     ASSERT_TRUE(last);
     expect_picture_of_its_samples(*last);
     session.set_paused(false);
-    EXPECT_TRUE(snapshot_of(session, goes_on));
+    EXPECT_TRUE(snapshot_of(session, is_incremental));
 }
 
 } // namespace

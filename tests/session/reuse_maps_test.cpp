@@ -1,4 +1,4 @@
-// The maps of reuse: which share of a pixel's base paths with light the roulette left, and how shifts to it ended.
+// Maps of path reuse: the fraction of base paths with light that survive Russian roulette, and shift outcomes.
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/rooms.h"
@@ -22,7 +22,7 @@ RenderSettings settings_of(Method method, RouletteKind roulette) {
     settings.roulette = roulette;
     settings.tile = 5;
     settings.max_depth = 4;
-    settings.adapt_tile = false; // all share
+    settings.adapt_tile = false; // no tile splitting, so all pixels reuse paths
     return settings;
 }
 
@@ -44,23 +44,23 @@ double sum(const Image<float>& image) {
     return std::accumulate(image.begin(), image.end(), 0.0);
 }
 
-TEST(Survival, IsWholeWithoutRoulette) {
+TEST(Survival, Is1WithoutRoulette) {
     for (const Method method : {Method::pr, Method::gpr, Method::gpt}) {
         const Outcome o = render(settings_of(method, RouletteKind::none), 3);
         EXPECT_EQ(o.counters.skipped_paths, 0u);
         for (const float s : o.maps.survival())
-            EXPECT_TRUE(s == 1 || s == 0); // 0: it is never lit
+            EXPECT_TRUE(s == 1 || s == 0); // 0 for pixels without light
         EXPECT_GT(sum(o.maps.survival()), 0.9 * size.x * size.y);
     }
 }
 
-TEST(Survival, GptHasNoRouletteWhateverIsSet) {
+TEST(Survival, IsWithoutRouletteInGpt) {
     const Outcome o = render(settings_of(Method::gpt, RouletteKind::absolute), 2);
     for (const float s : o.maps.survival())
         EXPECT_TRUE(s == 1 || s == 0);
 }
 
-/// In one pass of PR every base path is in one set: shares are 0 or 1, and their sum is what was counted.
+/// In one pass of PR, each base path is in one set. Survival is 0 or 1, and its sum is the counter.
 TEST(Survival, AddsUpToTheCounters) {
     RenderSettings settings = settings_of(Method::pr, RouletteKind::absolute);
     settings.rr_delta = 1;
@@ -73,9 +73,9 @@ TEST(Survival, AddsUpToTheCounters) {
     }
 }
 
-/// Over many passes, of pixels alike, the share is that of the counters; each pixel counts its path once in each
-/// set.
-TEST(Survival, IsTheShareOfThePathsWithLight) {
+/// Over many passes, the mean survival approaches the fraction of the counters. Each pixel counts its path once
+/// per set.
+TEST(Survival, IsTheFractionOfPathsWithLight) {
     for (const Method method : {Method::pr, Method::gpr}) {
         RenderSettings settings = settings_of(method, RouletteKind::absolute);
         settings.rr_delta = 1;
@@ -91,8 +91,9 @@ TEST(Survival, IsTheShareOfThePathsWithLight) {
     }
 }
 
-/// Shifts fail here in all ways: behind slats, at glass and mirrors next to what is rough, and into the dark.
-std::shared_ptr<const Scene> full_of_obstacles() {
+/// Returns a scene in which shifts fail for all reasons: slats, glass and mirrors next to rough surfaces, and
+/// darkness.
+std::shared_ptr<const Scene> obstacle_scene() {
     OpenRoom r;
     r.sky();
     r.sphere({-0.5f, -0.5f, 0.2f}, 0.3f, r.glass());
@@ -112,40 +113,40 @@ Sums sums_of(const ReuseMaps& maps) {
     return sums;
 }
 
-/// PR keeps all shifts that it tries: outcome by outcome the pixels' sums are the render's totals.
+/// PR records all shifts that it tries, so the sum over pixels of each outcome is the counter.
 TEST(ShiftOutcomes, AddUpToTheCounters) {
     for (const Pattern pattern : {Pattern::tile, Pattern::rooks})
         for (const ShiftKind shift : {ShiftKind::half_vector, ShiftKind::replay}) {
             RenderSettings settings = settings_of(Method::pr, RouletteKind::relative);
             settings.pattern = pattern;
             settings.shift = shift;
-            const Outcome o = render(settings, 4, full_of_obstacles());
+            const Outcome o = render(settings, 4, obstacle_scene());
             EXPECT_EQ(o.maps.passes, 4);
             EXPECT_EQ(sums_of(o.maps), o.counters.shifts);
         }
 }
 
-TEST(ShiftOutcomes, AreAllSeen) {
-    const Outcome o = render(settings_of(Method::pr, RouletteKind::none), 64, full_of_obstacles());
+TEST(ShiftOutcomes, AllOccur) {
+    const Outcome o = render(settings_of(Method::pr, RouletteKind::none), 64, obstacle_scene());
     const Sums sums = sums_of(o.maps);
     for (std::size_t i = 0; i < sums.size(); ++i)
         EXPECT_GT(sums[i], 0u) << to_string(static_cast<ShiftOutcome>(i));
 }
 
-/// Of shifts to pixels of other blocks nobody counts any.
-TEST(ShiftOutcomes, OfGradientMethodsArePartOfTheCounters) {
+/// The maps do not count shifts to pixels of other blocks.
+TEST(ShiftOutcomes, AreAtMostTheCountersInGradientMethods) {
     for (const Method method : {Method::gpr, Method::gpt}) {
-        const Outcome o = render(settings_of(method, RouletteKind::none), 2, full_of_obstacles());
+        const Outcome o = render(settings_of(method, RouletteKind::none), 2, obstacle_scene());
         const Sums sums = sums_of(o.maps);
         for (std::size_t i = 0; i < sums.size(); ++i)
             EXPECT_LE(sums[i], o.counters.shifts[i]);
-        const double share = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0})) /
-                             static_cast<double>(o.counters.shift_attempts());
-        EXPECT_GT(share, 0.9); // all but those to pixels of other blocks
+        const double fraction = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0})) /
+                                static_cast<double>(o.counters.shift_attempts());
+        EXPECT_GT(fraction, 0.9); // all shifts except those to other blocks
     }
 }
 
-TEST(ShiftOutcomes, ThereAreNoneOfPathTracing) {
+TEST(ShiftOutcomes, AreEmptyForPathTracing) {
     EXPECT_TRUE(render(settings_of(Method::pt, RouletteKind::none), 1).maps.empty());
 }
 

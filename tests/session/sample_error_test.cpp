@@ -1,4 +1,4 @@
-// What the samples' own variance says of their error, held against the truth.
+// The error estimated from the variance of the samples, compared with the true error.
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/sample_error.h"
@@ -26,7 +26,7 @@ Render render_of(const std::shared_ptr<const Scene>& scene, Method method, unsig
     return {scene, scene->camera(), size, settings};
 }
 
-/// Without emission that the camera sees, whose edges are not in the estimate.
+/// Reconstructs the image without directly visible emission, because the estimate excludes the noise at its edges.
 RgbImage picture(GradientImages images, Norm norm) {
     images.very_direct = {};
     ReconstructionSettings settings;
@@ -34,7 +34,7 @@ RgbImage picture(GradientImages images, Norm norm) {
     return reconstruct(images, settings).image;
 }
 
-TEST(SampleError, IsTheTrueErrorOfThePrimal) {
+TEST(SampleError, MatchesTheTrueErrorOfThePrimal) {
     const auto scene =
         std::make_shared<const Scene>(load_mitsuba_xml(TESSERA_SOURCE_DIR "/assets/cornell-box.xml").description);
     ThreadPool pool(2);
@@ -47,13 +47,14 @@ TEST(SampleError, IsTheTrueErrorOfThePrimal) {
     }
     constexpr unsigned seeds = 12;
     for (const Method method : {Method::pt, Method::gpr}) {
-        std::map<int, double> estimates, errors; // by samples
+        std::map<int, double> estimates, errors; // by samples per pixel
         for (unsigned seed = 1; seed <= seeds; ++seed) {
             Render render = render_of(scene, method, seed);
             EXPECT_FALSE(estimate_sample_error(render.images(), RgbImage(size.x, size.y)));
             for (int spp = 1; spp <= 64; ++spp) {
                 render.pass(pool);
-                // Two make halves; five: one more of one half than of the other; 24: eight more.
+                // 2 samples make two halves. With 5 samples, one half has one more than the other; with 24, eight
+                // more.
                 if (spp != 2 && spp != 5 && spp != 16 && spp != 24 && spp != 64)
                     continue;
                 const GradientImages images = render.images();
@@ -64,26 +65,24 @@ TEST(SampleError, IsTheTrueErrorOfThePrimal) {
                     continue;
                 estimates[spp] += estimate->relative_mse;
                 errors[spp] +=
-                    measure_floor_free_error(picture(images, Norm::none), truth[0], truth[1])
-                        .relative_mse;
+                    measure_floor_free_error(picture(images, Norm::none), truth[0], truth[1]).relative_mse;
             }
         }
-        // What both halves' numbers, which are nets by themselves, spare together is not seen: with PT that is
-        // much. (24 seeds, after 5 and 16 samples: 1.52 and 1.28 times the error, with G-PR 1.04 and 0.99.)
+        // The estimate does not see the gain from stratification across the halves, which is large for PT.
         for (const auto& [spp, error] : errors)
             EXPECT_NEAR(estimates[spp] / error, method == Method::pt ? 1.3 : 1, method == Method::pt ? 0.3 : 0.15)
                 << spp << " " << short_name(method);
     }
 }
 
-// One sample in a hundred pixels has found light: where it is dark, nobody knows how dark.
-TEST(SampleError, IsNotKnownWhereBrightnessIsNot) {
+// If few pixels have found light, the brightness of the dark pixels is unknown, and so is the error.
+TEST(SampleError, IsUnknownIfTheBrightnessIsUnknown) {
     GradientImages images;
     images.primal = images.halves.primal = RgbImage(40, 40, Rgb(0));
     for (int y = 0; y < 40; y += 20)
         for (int x = 0; x < 40; x += 20)
             images.primal(x, y) = images.halves.primal(x, y) = Rgb(50);
-    EXPECT_TRUE(estimate_sample_error(images, images.primal)); // most is black: known by all that is seen
+    EXPECT_TRUE(estimate_sample_error(images, images.primal)); // few lit pixels, whose brightness is known
     for (int y = 0; y < 40; y += 3)
         for (int x = 0; x < 40; x += 3)
             images.primal(x, y) = images.halves.primal(x, y) = Rgb(50);
@@ -92,8 +91,8 @@ TEST(SampleError, IsNotKnownWhereBrightnessIsNot) {
     images.primal = RgbImage(40, 40, Rgb(2));
     ASSERT_TRUE(estimate_sample_error(images, images.primal));
     EXPECT_NEAR(estimate_sample_error(images, images.primal)->relative_mse, 0.0625, 1e-3);
-    EXPECT_FALSE(estimate_sample_error(images, RgbImage(20, 20)));       // of another view
-    images.primal = images.halves.primal = RgbImage(40, 40, Rgb(1e38f)); // whose sums are no numbers
+    EXPECT_FALSE(estimate_sample_error(images, RgbImage(20, 20)));       // of another size
+    images.primal = images.halves.primal = RgbImage(40, 40, Rgb(1e38f)); // sums overflow
     EXPECT_FALSE(estimate_sample_error(images, images.primal));
 }
 

@@ -1,4 +1,4 @@
-// What the viewer relies on: the newest request wins, nothing of an old one comes back, pausing publishes.
+// Guarantees for the viewer: the newest request wins, old requests publish nothing, and pausing publishes.
 #include "render/scene/scene.h"
 #include "render/session/session.h"
 #include "tests/support/eventually.h"
@@ -38,7 +38,7 @@ Pace until(int spp) {
     return {Pace::Equal::time, spp, 0};
 }
 
-/// What is under way ends, and nothing follows: the samples of the pane stay the same for a while.
+/// Waits until the number of samples of the pane stays constant for 0.3 s.
 bool comes_to_rest(const Session& session, int pane) {
     return eventually([&] {
         const int spp = session.latest(pane)->spp;
@@ -47,8 +47,8 @@ bool comes_to_rest(const Session& session, int pane) {
     });
 }
 
-/// Seconds by which a pane may be ahead of its turn: some passes, and what was not shown yet. A machine that is
-/// slow, or busy, makes passes long.
+/// Returns the time in seconds by which a pane may be ahead of its turn: some passes, and unpublished samples.
+/// Passes are long on a slow or busy machine.
 double seconds_of_a_turn(const Session& session, int pane) {
     const auto s = session.latest(pane);
     return 0.25 + 5 * s->seconds / s->spp;
@@ -72,15 +72,15 @@ TEST(Session, PublishesACoarsePictureFirstAndReconstructs) {
     EXPECT_FALSE(last->coarse());
     EXPECT_EQ(last->images->primal.width(), 200);
     EXPECT_EQ(last->reconstruction->image.width(), 200);
-    EXPECT_TRUE(eventually([&] { return published >= 3; })); // told after it is there
+    EXPECT_TRUE(eventually([&] { return published >= 3; })); // the callback follows publication
 }
 
-TEST(Session, LooksComeWhileRequestsDoAndGrowFinerAfterwards) {
+TEST(Session, PreviewsAppearDuringRequestsAndGrowFinerAfterwards) {
     std::mutex mutex;
     std::vector<std::pair<std::uint64_t, int>> seen; // generation and divisor of each snapshot
     std::atomic<Session*> all{nullptr};
     Session session(1, 2, [&] {
-        const std::lock_guard lock(mutex); // first: two threads publish
+        const std::lock_guard lock(mutex); // locked first, because two threads publish
         Session* of = all;
         if (const auto s = of ? of->latest(0) : nullptr) {
             if (seen.empty() || seen.back() != std::pair(s->generation, s->divisor))
@@ -90,15 +90,15 @@ TEST(Session, LooksComeWhileRequestsDoAndGrowFinerAfterwards) {
     all = &session;
     session.set_pace(until(1));
     std::uint64_t last = 0;
-    const RenderRequest r = request(Method::gpr, {640, 480}); // large, so that looks take long
+    const RenderRequest r = request(Method::gpr, {640, 480}); // large, so that previews are slow
     const auto begin = std::chrono::steady_clock::now();
-    for (std::size_t looks = 0; looks < 3 && std::chrono::steady_clock::now() - begin < 2min;) {
-        last = session.submit(0, r); // as a camera that is dragged without rest
+    for (std::size_t previews = 0; previews < 3 && std::chrono::steady_clock::now() - begin < 2min;) {
+        last = session.submit(0, r); // as a dragged camera does
         std::this_thread::sleep_for(5ms);
         const std::lock_guard lock(mutex);
-        looks = seen.size();
+        previews = seen.size();
     }
-    ASSERT_TRUE(eventually([&] { // seen by who is told, which may be later than it is there
+    ASSERT_TRUE(eventually([&] { // the callback may be later than publication
         const std::lock_guard lock(mutex);
         return !seen.empty() && seen.back() == std::pair(last, 1);
     }));
@@ -109,13 +109,13 @@ TEST(Session, LooksComeWhileRequestsDoAndGrowFinerAfterwards) {
         if (seen[i].first == last)
             of_last.push_back(seen[i].second);
         else
-            EXPECT_GT(seen[i].second, 1) << i; // whole pictures of old cameras: nobody's wish
+            EXPECT_GT(seen[i].second, 1) << i; // outdated requests publish no whole picture
     }
     EXPECT_GE(of_last.size(), 2u);
-    EXPECT_TRUE(std::is_sorted(of_last.rbegin(), of_last.rend())) << "each is finer than the one before";
+    EXPECT_TRUE(std::is_sorted(of_last.rbegin(), of_last.rend())) << "each is finer than the previous one";
 }
 
-TEST(Session, NewestRequestWinsInAStorm) {
+TEST(Session, NewestOfManyRequestsWins) {
     Session session(2, 2);
     session.set_pace(until(1));
     std::uint64_t newest = 0;
@@ -148,13 +148,14 @@ TEST(Session, PausePublishesAndStops) {
     EXPECT_TRUE(eventually([&] { return session.latest(0)->spp > spp; }));
 }
 
-/// Whether the whole picture on show is reconstructed so.
+/// Returns whether the latest snapshot is a whole picture reconstructed with this norm.
 bool is_made_with(const Session& session, Norm norm) {
     const auto s = session.latest(0);
     return s && !s->coarse() && s->reconstruction && s->reconstructed_with.norm == norm;
 }
 
-/// Renders one pass, so large that L1 takes half a second of it on an idle machine.
+/// Renders one pass, so large that its L1 reconstruction takes half a second on an idle machine. Waits for the
+/// primal.
 bool shows_a_large_primal(Session& session) {
     session.set_pace(until(1));
     session.set_reconstruction(0, {Norm::none});
@@ -164,7 +165,7 @@ bool shows_a_large_primal(Session& session) {
     return eventually([&] { return is_made_with(session, Norm::none); });
 }
 
-TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
+TEST(Session, NewSettingsCancelTheRunningReconstruction) {
     std::atomic<bool> saw_l1{false};
     std::atomic<Session*> all{nullptr};
     Session session(1, 2, [&] {
@@ -173,7 +174,7 @@ TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
         saw_l1 = saw_l1 || (s && s->reconstruction && s->reconstructed_with.norm == Norm::l1);
     });
     ASSERT_TRUE(shows_a_large_primal(session));
-    all = &session; // nothing is published by now
+    all = &session; // set while nothing is published
     bool was_too_late = true;
     for (int attempt = 0; attempt < 20 && was_too_late; ++attempt) {
         session.set_reconstruction(0, {Norm::none});
@@ -182,15 +183,14 @@ TEST(Session, OtherSettingsEndTheReconstructionUnderWay) {
         session.set_reconstruction(0, {Norm::l1});
         ASSERT_TRUE(eventually([&] { return saw_l1 || session.reconstructing(0); }));
         session.set_reconstruction(0, {Norm::l2});
-        was_too_late =
-            saw_l1 || is_made_with(session, Norm::l1); // where this thread had to wait: there was none to end
+        was_too_late = saw_l1 || is_made_with(session, Norm::l1); // L1 finished before this thread could cancel it
         ASSERT_TRUE(eventually([&] { return is_made_with(session, Norm::l2); }));
     }
     ASSERT_FALSE(was_too_late);
     EXPECT_FALSE(saw_l1);
 }
 
-TEST(Session, AReconstructionCanBeGivenUp) {
+TEST(Session, ReconstructionCanBeCancelled) {
     Session session(1, 2);
     ASSERT_TRUE(shows_a_large_primal(session));
     ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
@@ -200,13 +200,13 @@ TEST(Session, AReconstructionCanBeGivenUp) {
     session.stop_reconstruction(0);
     ASSERT_TRUE(eventually([&] { return !session.reconstructing(0); }));
     std::this_thread::sleep_for(50ms);
-    EXPECT_FALSE(session.reconstructing(0)); // nor is it begun again
+    EXPECT_FALSE(session.reconstructing(0)); // it does not restart
     EXPECT_TRUE(is_made_with(session, Norm::none));
     session.set_reconstruction(0, {Norm::l2});
     EXPECT_TRUE(eventually([&] { return is_made_with(session, Norm::l2); }));
 }
 
-TEST(Session, PanesShareTheTime) {
+TEST(Session, PanesGetEqualTime) {
     Session session(2, 2);
     session.submit(0, request(Method::pt, {96, 64}));
     session.submit(1, request(Method::gpr, {96, 64}));
@@ -219,25 +219,26 @@ TEST(Session, PanesShareTheTime) {
     EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, seconds_of_a_turn(session, 1));
 }
 
-TEST(Session, ALatePaneCatchesUpInTime) {
+TEST(Session, LatePaneCatchesUpInTime) {
     Session session(2, 2);
     session.submit(0, request(Method::pt, {96, 64}));
     ASSERT_TRUE(eventually([&] { return session.latest(0) && session.latest(0)->seconds > 1.2; }));
     session.submit(1, request(Method::gpr, {96, 64}));
-    const double had = session.latest(0)->seconds;
+    const double seconds_before = session.latest(0)->seconds;
     ASSERT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->seconds > 0.9; }));
-    // Meanwhile the first stands, but for a pass under way and what was not shown yet. In turns it would have had
-    // 0.9.
-    EXPECT_LT(session.latest(0)->seconds - had, 0.1 + seconds_of_a_turn(session, 0));
-    EXPECT_TRUE(eventually([&] { return session.latest(0)->seconds > had + 0.4; })); // and then both go on
+    // The first pane waits, except for a running pass and unpublished samples. With equal turns, it would have
+    // gained 0.9 s.
+    EXPECT_LT(session.latest(0)->seconds - seconds_before, 0.1 + seconds_of_a_turn(session, 0));
+    EXPECT_TRUE(
+        eventually([&] { return session.latest(0)->seconds > seconds_before + 0.4; })); // then both panes render
     EXPECT_NEAR(session.latest(0)->seconds, session.latest(1)->seconds, 0.1 + seconds_of_a_turn(session, 1));
 }
 
-TEST(Session, PanesMayShareSamplesInsteadOfTime) {
+TEST(Session, PanesCanGetEqualSamplesInstead) {
     Session session(2, 2);
     session.set_pace({Pace::Equal::spp, 0, 0});
     session.submit(0, request(Method::pt, {96, 64}));
-    session.submit(1, request(Method::gpr, {96, 64})); // several times as slow
+    session.submit(1, request(Method::gpr, {96, 64})); // several times slower
     ASSERT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->spp > 20; }));
     session.set_paused(true);
     EXPECT_TRUE(comes_to_rest(session, 0) && comes_to_rest(session, 1));
@@ -245,7 +246,7 @@ TEST(Session, PanesMayShareSamplesInsteadOfTime) {
     EXPECT_LT(session.latest(0)->seconds, session.latest(1)->seconds);
 }
 
-TEST(Session, RestsAtSecondsAndGoesOnWhenTheLimitIsRaised) {
+TEST(Session, StopsAtATimeLimitAndResumesWhenItIsRaised) {
     Session session(1, 2);
     session.set_pace({Pace::Equal::time, 0, 0.2});
     const std::uint64_t generation = session.submit(0, request(Method::pt));
@@ -281,7 +282,7 @@ TEST(Session, StepsOnePassWhilePausedAndBeyondALimit) {
     EXPECT_EQ(session.latest(0)->spp, 5);
 }
 
-TEST(Session, AWithdrawnPaneTakesNoTurns) {
+TEST(Session, WithdrawnPaneTakesNoTurns) {
     Session session(2, 2);
     session.submit(0, request(Method::pt));
     session.submit(1, request(Method::pt));
@@ -295,7 +296,7 @@ TEST(Session, AWithdrawnPaneTakesNoTurns) {
     EXPECT_TRUE(eventually([&] { return session.latest(1) && session.latest(1)->generation == again; }));
 }
 
-TEST(Session, BadSettingsGiveAMessageAndTheSessionLivesOn) {
+TEST(Session, BadSettingsGiveAMessageAndTheSessionContinues) {
     Session session(1, 1);
     RenderRequest bad = request(Method::gpr);
     bad.settings.tile = 99;
@@ -310,7 +311,7 @@ TEST(Session, BadSettingsGiveAMessageAndTheSessionLivesOn) {
     EXPECT_TRUE(eventually([&] { return session.latest(0) && !session.latest(0)->coarse(); }));
 }
 
-TEST(Session, AFailedRenderSaysSoUntilTheNextRequest) {
+TEST(Session, FailedRenderIsReportedUntilTheNextRequest) {
     Session session(1, 1);
     RenderRequest bad = request(Method::gpr);
     bad.settings.tile = 99;
@@ -320,8 +321,8 @@ TEST(Session, AFailedRenderSaysSoUntilTheNextRequest) {
     EXPECT_FALSE(session.has_failed(0));
 }
 
-// Publishing ends with the caller's own function, which here runs out of memory once, in whichever thread that is.
-TEST(Session, APassThatCannotBeShownIsNoEndOfTheRender) {
+// The callback of the session runs out of memory once, on the thread that publishes.
+TEST(Session, FailedPublicationDoesNotEndTheRender) {
     std::atomic<int> published = 0;
     Session session(1, 2, [&] {
         if (++published == 2)
@@ -337,7 +338,7 @@ TEST(Session, APassThatCannotBeShownIsNoEndOfTheRender) {
     EXPECT_NE(messages[0].find("is not shown"), std::string::npos) << messages[0];
 }
 
-TEST(Session, APaneThatFollowsAnotherReconstructsItsPassesByItself) {
+TEST(Session, FollowingPaneReconstructsByItself) {
     Session session(3, 2);
     session.set_pace(until(4));
     session.set_reconstruction(0, {Norm::l2, 0.2f});
@@ -350,21 +351,21 @@ TEST(Session, APaneThatFollowsAnotherReconstructsItsPassesByItself) {
                s->reconstructed_with.norm == norm;
     };
     ASSERT_TRUE(eventually([&] { return has_all(0, Norm::l2) && has_all(1, Norm::l1); }));
-    EXPECT_EQ(session.latest(0)->images, session.latest(1)->images) << "one render";
-    EXPECT_EQ(session.follow(2, 0), generation); // late: it gets what is there
+    EXPECT_EQ(session.latest(0)->images, session.latest(1)->images) << "both panes show one render";
+    EXPECT_EQ(session.follow(2, 0), generation); // a late follower gets the existing picture
     EXPECT_TRUE(eventually([&] { return session.latest(2) && session.latest(2)->reconstruction_spp == 4; }));
     const std::uint64_t next = session.submit(0, request(Method::pt, {64, 48}));
-    // Until it follows anew, it shows what it had, or a first preview.
+    // Until it follows the new request, it shows its old picture or a first preview.
     const auto shown = session.latest(1);
     EXPECT_TRUE(shown->generation == generation || shown->coarse());
     EXPECT_EQ(session.follow(1, 0), next);
     EXPECT_TRUE(eventually([&] { return session.latest(1)->generation == next && session.latest(1)->spp == 4; }));
-    session.submit(1, request(Method::gpt, {64, 48})); // on its own again
+    session.submit(1, request(Method::gpt, {64, 48})); // no longer a follower
     EXPECT_TRUE(eventually([&] { return session.latest(1)->settings.method == Method::gpt; }));
     EXPECT_TRUE(session.take_messages().empty());
 }
 
-TEST(Session, ReconstructionSettingsRenderNothing) {
+TEST(Session, ReconstructionSettingsDoNotRestartTheRender) {
     Session session(1, 2);
     session.set_pace(until(2));
     session.submit(0, request(Method::gpr, {64, 48}));

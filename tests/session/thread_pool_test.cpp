@@ -27,7 +27,7 @@ TEST(ThreadPool, RunsEveryIterationOnce) {
     }
 }
 
-TEST(ThreadPool, ThrowsTheErrorOfABodyAndWorksOn) {
+TEST(ThreadPool, ThrowsTheErrorOfABodyAndStaysUsable) {
     ThreadPool pool(3);
     EXPECT_THROW(pool.parallel_for(100,
                                    [](int i, int) {
@@ -67,7 +67,7 @@ TEST(ThreadPool, LoopsOfSeveralCallersTakeTurns) {
     EXPECT_EQ(sum, 4 * 200 * 7);
 }
 
-TEST(ThreadPool, LoopsForThoseWhoNeedNoWorker) {
+TEST(ThreadPool, RunsLoopsWithoutWorkerIndex) {
     ThreadPool pool(3);
     for (const ParallelFor& loops : {pool.loops(), pool.row_loops()}) {
         for (std::size_t count : {0u, 1u, 2u, 11u, 12u, 13u, 100u, 1000u}) {
@@ -92,7 +92,7 @@ TEST(ThreadPool, LoopsForThoseWhoNeedNoWorker) {
 TEST(ThreadPool, CountsTheCpuSecondsOfAllItsWorkers) {
     ThreadPool pool(3);
     std::mutex mutex;
-    double spent = 0; // in bodies
+    double spent = 0; // CPU time of the loop bodies, seconds
     const double before = pool.cpu_seconds();
     pool.parallel_for(30, [&](int, int) {
         const double start = thread_cpu_seconds();
