@@ -65,7 +65,7 @@ public:
         Measured m{std::move(name), {}, {}, {}};
         for (std::uint32_t turn = 0; turn < turns; ++turn) {
             double alone = 0, scalar = 0, full = 0;
-            // The order rotates, so cold caches hit all variants alike.
+            // The order rotates, so cold caches affect all variants equally.
             for (const std::uint32_t variant : {turn % 3, (turn + 1) % 3, (turn + 2) % 3})
                 (variant == 0 ? alone : variant == 1 ? scalar : full) = min_seconds_of(turn, variant);
             m.scalar_cost.push_back(scalar / alone - 1);
