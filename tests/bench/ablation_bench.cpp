@@ -61,7 +61,7 @@ Parameters parameters_of(GuidedParameters& p) {
             {"feature_width", &p.feature_width},
             {"roughness_width", &p.roughness_width},
             {"least_albedo", &p.least_albedo},
-            {"most_added", &p.most_added},
+            {"most_added", &p.largest_addition},
             {"around_radius", &p.around_radius},
             {"near_levels", &p.near_levels},
             {"least_local", &p.least_local},

@@ -33,12 +33,12 @@ std::vector<BenchedBsdf> benched_bsdfs() {
             {"plastic", {plastic(ggx, 0, orange, false)}},
             {"rough_plastic", {plastic(ggx, 0.2f, orange, false)}},
             {"phong", {Phong(30, orange, Rgb(0.2f))}},
-            {"ward", {FurtherKinds{Ward(WardVariant::balanced, {0.1f, 0.2f}, orange, Rgb(0.2f))}}},
+            {"ward", {UncommonBsdf{Ward(WardVariant::balanced, {0.1f, 0.2f}, orange, Rgb(0.2f))}}},
             {"principled", resolved(PrincipledMaterial{})},
             {"principled_all", resolved(principled(0.3f, 0.5f)), 1.5f},
             {"thin_principled", resolved(thin_principled(0.4f, 0.8f)), -1},
-            {"difftrans", {FurtherKinds{DiffuseTransmitter{orange}}}, -1},
-            {"hk", {FurtherKinds{MediumLayer{orange, Rgb(0.5f), 0.5f, true}}}, -1},
+            {"difftrans", {UncommonBsdf{DiffuseTransmitter{orange}}}, -1},
+            {"hk", {UncommonBsdf{MediumLayer{orange, Rgb(0.5f), 0.5f, true}}}, -1},
             {"blend", resolved(blend(diffuse, metal, 0.3f))},
             {"coated_diffuse", resolved(coated(diffuse, Rgb(0.5f)))}};
 }

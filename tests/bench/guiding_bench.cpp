@@ -29,9 +29,9 @@ namespace {
 constexpr glm::ivec2 size(320, 180);
 
 struct Measured {
-    std::vector<RgbImage> pictures; ///< one per seed
-    double cpu_seconds = 0;         ///< of all seeds
-    double left_of_squares = 0;     ///< PathGuiding::left_of_squares(), summed over the seeds
+    std::vector<RgbImage> pictures;     ///< one per seed
+    double cpu_seconds = 0;             ///< of all seeds
+    double remaining_second_moment = 0; ///< PathGuiding::remaining_second_moment(), summed over the seeds
 };
 using ByGuiding = std::array<Measured, 2>; ///< off, on
 
@@ -83,7 +83,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
         Render render(scene, scene->camera(), size, settings);
         const auto left = [&] {
             const PathGuiding* of_last_pass = render.newest_learned()->guiding();
-            return of_last_pass ? of_last_pass->left_of_squares() : 1.0;
+            return of_last_pass ? of_last_pass->remaining_second_moment() : 1.0;
         };
         render.pass(pool);
         render.pass(pool); // the first pass that can be guided; the pass before it has learnt the guides
@@ -95,7 +95,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
             Measured& m = found[samples][std::size_t(i % 2)];
             m.pictures.push_back(render.images().primal);
             m.cpu_seconds += render.cpu_seconds();
-            m.left_of_squares += left();
+            m.remaining_second_moment += left();
         }
     }
     fmt::print("second moment that guiding leaves, estimated by the first pass: {:.2f}\n", first_left);
@@ -106,7 +106,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
         fmt::print("{:4} spp: CPU {:.2f} s, x{:.2f} guided; variance {:.4f} -> {:.4f}; gain in variance x time "
                    "{:.2f}, without the worst pixels {:.2f}; second moment left {:.2f}\n",
                    samples, by[0].cpu_seconds / seeds, cost, off[0], on[0], off[0] / (on[0] * cost),
-                   off[1] / (on[1] * cost), by[1].left_of_squares / seeds);
+                   off[1] / (on[1] * cost), by[1].remaining_second_moment / seeds);
     }
 }
 

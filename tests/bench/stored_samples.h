@@ -24,7 +24,7 @@ void for_each_stored_image(Images& images, Visit&& visit) {
                         &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal})
         visit(*image);
     for (auto* image : {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance,
-                        &d.sampled_share, &d.unexplained_variance, &b.half, &g.nearness, &g.roughness})
+                        &d.sampled_weight, &d.unexplained_variance, &b.half, &g.nearness, &g.roughness})
         visit(*image);
 }
 
