@@ -1,5 +1,5 @@
 #!/bin/sh
-# ./run.sh [scene.xml] [options]: installs what is missing, builds, and opens the viewer (tessera view --help).
+# ./run.sh [scene.xml] [options]: installs missing packages, builds, and opens the viewer (tessera view --help).
 set -eu
 root=$(cd "$(dirname "$0")" && pwd)
 . "$root/scripts/setup.sh"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# ./test.sh [ctest options]: installs what is missing, builds with warnings as errors, and runs every test that is not
-# labelled slow.
+# ./test.sh [ctest options]: installs missing packages, builds with warnings as errors, and runs all tests without the label
+# slow.
 set -eu
 root=$(cd "$(dirname "$0")" && pwd)
 . "$root/scripts/setup.sh"

@@ -1,6 +1,6 @@
-// The pictures of a scene, one against another: one of both, a line between them that follows the mouse, both in turn, or
-// their difference. Wheel: enlarges about the mouse; a double click shows the whole again. The mouse on a small picture
-// shows it instead, as long as it is there; a click makes it the first of both.
+// Compares two pictures of a scene: shows one of them, both with a divider that follows the mouse, both in turn, or their
+// difference. The wheel zooms at the mouse; a double click shows the whole picture. Hovering a thumbnail shows its picture;
+// a click selects it as the first of the two.
 for (const box of document.querySelectorAll('.compare')) {
   const images = [...box.querySelectorAll('.pictures img')], canvas = box.querySelector('canvas');
   const [first, second] = box.querySelectorAll('select'), text = box.querySelector('output');
@@ -8,11 +8,11 @@ for (const box of document.querySelectorAll('.compare')) {
   const width = +images[0].getAttribute('width'), height = +images[0].getAttribute('height');
   const scale = 2 ** +box.dataset.exposure;
   let mode = 'wipe', pointed = null, wipe = 0.5, zoom = 1, left = 0, top = 0, odd = false, pixels = [], differences = {};
-  canvas.width = Math.max(width, Math.min(960, Math.round(640 * width / height))); // small ones are enlarged
+  canvas.width = Math.max(width, Math.min(960, Math.round(640 * width / height))); // enlarges small pictures
   canvas.height = Math.round(canvas.width * height / width);
   const draw = canvas.getContext('2d');
 
-  function bytes(index) { // of a picture, as it is in the page
+  function bytes(index) { // returns the sRGB bytes of a picture
     if (!pixels[index]) {
       const copy = new OffscreenCanvas(width, height).getContext('2d');
       copy.drawImage(images[index], 0, 0);
@@ -23,7 +23,7 @@ for (const box of document.querySelectorAll('.compare')) {
   const linear = byte => { const c = byte / 255; return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4; };
   const luminance = (data, at) => 0.2126 * linear(data[at]) + 0.7152 * linear(data[at + 1]) + 0.0722 * linear(data[at + 2]);
 
-  function difference() { // orange: the first is brighter; blue: the second is
+  function difference() { // orange: the first picture is brighter; blue: the second is
     const key = first.value + ' ' + second.value + ' ' + gain.value;
     if (!differences[key]) {
       const a = bytes(+first.value), b = bytes(+second.value), image = new ImageData(width, height);

@@ -1,8 +1,7 @@
-# tessera_precompile(target [headers...]): the standard headers, glm and what else is given are compiled once for the
-# target. No source may count on that: with CMAKE_DISABLE_PRECOMPILE_HEADERS=ON everything builds as well, and
-# tests/house/check_house.py sees to it that each file includes what it uses. JSON and CLI11 are no good here: what their
-# inline functions instantiate is instantiated again at the end of every source that takes them (crops.cpp: 4.4 CPU
-# seconds with both, 3.7 without a precompiled header, 3.1 with one that has neither).
+# tessera_precompile(target [headers...]): precompiles standard headers, glm and the given headers for the target. Sources
+# must not rely on it: everything builds with CMAKE_DISABLE_PRECOMPILE_HEADERS=ON, and tests/house/check_house.py checks
+# that each file includes what it uses. JSON and CLI11 slow compilation down here: every source that uses the precompiled
+# header instantiates their templates again.
 set(TESSERA_COMMON_HEADERS
   <algorithm> <array> <atomic> <charconv> <chrono> <cmath> <cstddef> <cstdint> <cstdio> <filesystem> <fstream>
   <functional> <limits> <map> <memory> <mutex> <numeric> <optional> <span> <sstream> <stdexcept> <stop_token> <string>
@@ -14,9 +13,9 @@ function(tessera_precompile target)
   target_precompile_headers(${target} PRIVATE ${TESSERA_COMMON_HEADERS} ${ARGN})
 endfunction()
 
-# tessera_optimise(target LEVEL): less than -O3, where the time that compiling takes is worth more than the time that
-# running does. Pictures come from the -O3 of recon and render. It is for whole targets, as g++ 12 fails where a source is
-# optimised otherwise than the precompiled header that it takes.
+# tessera_optimise(target LEVEL): optimises a target less than -O3, to save compile time. Rendering and reconstruction run in
+# recon and render, which keep -O3. The level is that of a whole target, as g++ 12 fails if a source and its precompiled
+# header have different levels.
 function(tessera_optimise target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()

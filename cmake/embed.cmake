@@ -1,8 +1,8 @@
-# tessera_embed(target file symbol): at build time, `file` (text) becomes the header "embedded/<symbol>.h", which
-# holds `inline constexpr std::string_view tessera::<symbol>`. Run as a script, this file writes that header.
+# tessera_embed(target file symbol): at build time, converts the text file to the header "embedded/<symbol>.h", which defines
+# `inline constexpr std::string_view tessera::<symbol>`. Run as a script, this file writes that header.
 
-# tessera_embed_folder(target folder symbol): likewise all files of a folder, of any kind: an array of
-# tessera::EmbeddedFile (app/cli/embedded_file.h), named by their paths in the folder.
+# tessera_embed_folder(target folder symbol): embeds all files of a folder, text or binary, as an array of
+# tessera::EmbeddedFile (app/cli/embedded_file.h), with their paths relative to the folder.
 
 if(CMAKE_SCRIPT_MODE_FILE AND FOLDER)
   file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
@@ -37,7 +37,7 @@ endif()
 
 if(CMAKE_SCRIPT_MODE_FILE)
   file(READ "${INPUT}" text)
-  # A system header: compilers do not warn of the length of its strings.
+  # Compilers do not warn about long strings in system headers.
   file(WRITE "${OUTPUT}" "#pragma once
 #pragma GCC system_header
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A reference that is killed again and again ends with the same bits as one that is left alone.
+"""Tests that a reference that is killed many times ends with the same bits as one that is not.
 
     tests/attack/kills.py PROGRAM SCENE [--kills 100] [--spp 4000] [--seed 1]
 
-Renders a reference of 48x27 pixels with a checkpoint after each pass; then another, which is killed (SIGKILL) at moments
-chosen by chance until it was killed as often as wanted or is done, anew if it is done too early. Prints a tally; exit
-code 1: bits differ, a run failed, or files other than the picture, its checkpoint and what is being written are left.
+Renders a reference of 48x27 pixels, with a checkpoint after each pass. Then renders it again, and kills the process
+(SIGKILL) at random moments until there are --kills kills. A picture that is finished before is checked and started again.
+Prints a tally. Exit code 1: bits differ, a run failed, or files other than the picture are left.
 """
 
 import argparse
@@ -23,7 +23,7 @@ def reference_command(given, picture):
 
 
 def has_same_bits(program, picture, other):
-    """Whether two pictures differ nowhere: their headers hold times."""
+    """Returns whether two pictures have the same pixels. Their headers differ, as they contain times."""
     done = subprocess.run([program, "compare", picture, other, "--json"], capture_output=True, text=True)
     return done.returncode == 0 and json.loads(done.stdout)["mse"] == 0
 
@@ -36,7 +36,7 @@ def main():
     parser.add_argument("--spp", default="4000")
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
-    chance = random.Random(given.seed)
+    rng = random.Random(given.seed)
     with tempfile.TemporaryDirectory() as folder:
         whole, torn = Path(folder) / "whole.exr", Path(folder) / "torn" / "torn.exr"
         torn.parent.mkdir()
@@ -47,20 +47,20 @@ def main():
         while kills < given.kills:
             run = subprocess.Popen(reference_command(given, torn), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
             try:
-                _, told = run.communicate(timeout=chance.uniform(0, 0.3 * seconds))
+                _, message = run.communicate(timeout=rng.uniform(0, 0.3 * seconds))
             except subprocess.TimeoutExpired:
                 run.kill()
                 run.communicate()
                 kills += 1
                 continue
             if run.returncode != 0 or not has_same_bits(given.program, torn, whole):
-                sys.exit(f"after {kills} kills: code {run.returncode}, or other bits\n{told.decode()}")
+                sys.exit(f"after {kills} kills: code {run.returncode}, or different bits\n{message.decode()}")
             finished += 1
             torn.unlink()
         subprocess.run(reference_command(given, torn), check=True, capture_output=True)
         left = [f.name for f in torn.parent.iterdir() if f.name != torn.name]
         same = has_same_bits(given.program, torn, whole)
-    print(f"{kills} kills, {finished + 1} pictures, the last {'the same' if same else 'NOT THE SAME'}; left: {left or 'nothing'}")
+    print(f"{kills} kills, {finished + 1} pictures, the last {'the same' if same else 'DIFFERENT'}; left: {left or 'nothing'}")
     sys.exit(not same or bool(left))
 
 

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Workers that are killed again and again find in one folder what one that is left alone finds.
+"""Tests that workers of one folder, killed many times, give the results of one worker that is not.
 
     tests/attack/worker_kills.py PROGRAM SCENE [--trials 50] [--workers 4] [--seed 1]
 
-Sweeps the scene in 48x27 pixels by samples; then, in each trial, several workers do so in a new folder (references, too),
-of which one after the other is killed (SIGKILL) at moments chosen by chance, and another started in its place; at last all
-are left to end. Prints a tally; exit code 1: a row differs in anything but times, a job has two files or none, files other
-than jobs and reports are left, or a worker failed.
+Runs a sweep of 48x27 pixels in one process. In each trial, several workers run the same sweep in a new folder, with the
+references. Random workers are killed (SIGKILL) at random moments and replaced; then all run to their end. Prints a tally.
+Exit code 1: a row differs in more than times, the number of job files is wrong, other files are left, or a worker failed.
 """
 
 import argparse
@@ -29,7 +28,7 @@ def command(given, folder):
 
 
 def rows(folder):
-    """What sweep.json has, but for times."""
+    """Returns the results in sweep.json without times."""
     def timeless(row):
         return {key: value for key, value in row.items() if key not in TIMES}
     results = json.loads((folder / "out/sweep.json").read_text())["results"]
@@ -37,7 +36,7 @@ def rows(folder):
 
 
 def left_over(folder):
-    """Files that should not be there."""
+    """Returns the names of files that should not exist, and the number of job files if it is wrong."""
     jobs = [f.name for f in (folder / "out/jobs").iterdir()]
     finished = [name for name in jobs if name.endswith(".jsonl")]
     others = [name for name in jobs if not name.endswith(".jsonl") and not name.startswith("report-")]
@@ -45,27 +44,27 @@ def left_over(folder):
     return others if len(finished) == 4 * 4 else others + [f"{len(finished)} jobs"]
 
 
-def trial(given, folder, chance, whole):
-    """Returns what is wrong, or nothing, and the number of kills."""
+def trial(given, folder, rng, whole):
+    """Returns a problem, or an empty string, and the number of kills."""
     def start():
         return subprocess.Popen(command(given, folder), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     workers = [start() for _ in range(given.workers)]
     kills = 0
-    for _ in range(chance.randrange(1, 12)):
-        time.sleep(chance.uniform(0, 0.3))
-        victim = chance.randrange(len(workers))
+    for _ in range(rng.randrange(1, 12)):
+        time.sleep(rng.uniform(0, 0.3))
+        victim = rng.randrange(len(workers))
         kills += workers[victim].poll() is None
         workers[victim].kill()
         workers[victim].communicate()
         workers[victim] = start()
     for worker in workers:
-        _, told = worker.communicate()
+        _, message = worker.communicate()
         if worker.returncode != 0:
-            return f"code {worker.returncode}: {told.decode()}", kills
+            return f"code {worker.returncode}: {message.decode()}", kills
     if rows(folder) != whole:
-        return "other rows", kills
+        return "different rows", kills
     left = left_over(folder)
-    return f"left: {left}" if left else "", kills
+    return f"files left: {left}" if left else "", kills
 
 
 def main():
@@ -76,19 +75,19 @@ def main():
     parser.add_argument("--workers", type=int, default=4)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
-    chance = random.Random(given.seed)
+    rng = random.Random(given.seed)
     all_kills = wrong = 0
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(command(given, Path(folder)), check=True, capture_output=True)
         whole = rows(Path(folder))
     for i in range(given.trials):
         with tempfile.TemporaryDirectory() as folder:
-            problem, kills = trial(given, Path(folder), chance, whole)
+            problem, kills = trial(given, Path(folder), rng, whole)
         all_kills += kills
         if problem:
             wrong += 1
             print(f"trial {i + 1}: {problem}")
-    print(f"{given.trials} trials, {all_kills} kills: {wrong or 'none'} went wrong")
+    print(f"{given.trials} trials, {all_kills} kills: {wrong or 'none'} failed")
     sys.exit(wrong > 0)
 
 

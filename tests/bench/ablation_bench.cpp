@@ -1,11 +1,14 @@
-// ablation_bench CELLS [VARIANT...]: what the stages and constants of `guided` gain, on stored samples.
+// ablation_bench CELLS [VARIANT...]: measures what the stages and constants of `guided` gain (METHODS,
+// "Ablation").
 //
-// CELLS lists the samples, a line each: NAME SAMPLES REFERENCE1 REFERENCE2, files that store_samples has written;
-// the references have other seeds than the samples and each other. A variant is
-// PARAMETER=VALUE[,PARAMETER=VALUE...]; `all` stands for each stage switched off, and each constant halved and
-// doubled. Prints the errors of every cell, and for each variant geometric means over the cells of the ratios to
-// the default parameters: relMSE, relMSE without the worst 0.1 % of the pixels, and FLIP; the mean change of PSNR;
-// and the cell that loses most.
+// Each line of the file CELLS names a cell: NAME SAMPLES REFERENCE1 REFERENCE2. store_samples writes these files.
+// The samples and the two references need three different seeds. A variant is
+// PARAMETER=VALUE[,PARAMETER=VALUE...]. `all` switches each stage off, and halves and doubles each constant;
+// numbers of levels grow by 1 instead.
+//
+// Prints the errors of each cell with the default parameters. For each variant it prints geometric means over the
+// cells of the ratios to these errors: relMSE, relMSE without the worst 0.1 % of the pixels, and FLIP. The mean
+// change of PSNR (dB) and the cell with the largest ratio follow.
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/seen_error.h"
@@ -83,7 +86,8 @@ struct Cell {
 };
 
 struct Errors {
-    double relative_mse, trimmed, flip, psnr, energy, dark_energy;
+    double relative_mse, trimmed, flip, psnr;
+    double energy, dark_energy; ///< relative change of the mean luminance: all pixels, and the darkest quarter
 };
 
 RgbImage linear_picture(const std::string& file) {
@@ -182,16 +186,16 @@ public:
         std::istringstream words(variant);
         for (std::string word; std::getline(words, word, ',');)
             set(table, word);
-        const std::vector<Errors> now = errors_with(parameters);
+        const std::vector<Errors> errors = errors_with(parameters);
         double relative = 0, trimmed = 0, flip = 0, psnr = 0, worst = 0;
         std::string worst_name;
         const auto n = static_cast<double>(cells_.size());
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const double t = now[i].trimmed / base_[i].trimmed, f = now[i].flip / base_[i].flip;
-            relative += std::log(now[i].relative_mse / base_[i].relative_mse) / n;
+            const double t = errors[i].trimmed / base_[i].trimmed, f = errors[i].flip / base_[i].flip;
+            relative += std::log(errors[i].relative_mse / base_[i].relative_mse) / n;
             trimmed += std::log(t) / n;
             flip += std::log(f) / n;
-            psnr += (now[i].psnr - base_[i].psnr) / n;
+            psnr += (errors[i].psnr - base_[i].psnr) / n;
             if (std::max(t, f) > worst)
                 worst = std::max(t, f), worst_name = cells_[i].name;
         }

@@ -1,4 +1,4 @@
-// BSDF evaluations and samples per CPU second, one benchmark a kind.
+// Measures BSDF evaluations and samples per CPU second, for each kind of BSDF.
 
 #include "tests/surface/bsdf_cases.h"
 
@@ -12,13 +12,13 @@ namespace {
 using namespace tessera;
 using namespace tessera::test;
 
-struct Kind {
+struct BenchedBsdf {
     const char* name;
     Bsdf bsdf;
-    float eta = 1; ///< index below the surface over that above; 1: nothing is transmitted, -1: nothing is bent
+    float eta = 1; ///< relative index of refraction; 1: opaque, -1: transmits without refraction
 };
 
-std::vector<Kind> one_of_each_kind() {
+std::vector<BenchedBsdf> benched_bsdfs() {
     using enum MicrofacetDistribution;
     const Rgb orange(0.8f, 0.5f, 0.2f);
     const auto diffuse = shared(DiffuseMaterial{{orange}}), metal = shared(copper(0.3f));
@@ -43,14 +43,14 @@ std::vector<Kind> one_of_each_kind() {
             {"coated_diffuse", resolved(coated(diffuse, Rgb(0.5f)))}};
 }
 
-/// What one call takes, for so many calls that the branches taken are not learnt by heart.
+/// Arguments of one call. Many different ones keep the branch predictor from learning their sequence.
 struct Query {
     glm::vec3 to_previous, to_next;
     float lobe;
     glm::vec2 u;
 };
 
-/// Directions to all sides, the next one below the surface where light is transmitted.
+/// Returns random queries. Both directions lie above the surface, or half of `to_next` below it if `transmits`.
 std::array<Query, 1024> queries(bool transmits) {
     Uniform uniform(1);
     const auto above = [&uniform] {
@@ -67,7 +67,7 @@ std::array<Query, 1024> queries(bool transmits) {
 }
 
 template <class Call>
-void run(benchmark::State& state, const Kind& c, Call&& call) {
+void run(benchmark::State& state, const BenchedBsdf& c, Call&& call) {
     const auto all = queries(c.eta != 1);
     for (auto _ : state)
         for (const Query& q : all)
@@ -76,11 +76,11 @@ void run(benchmark::State& state, const Kind& c, Call&& call) {
         benchmark::Counter(static_cast<double>(all.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void evaluate(benchmark::State& state, const Kind& c) {
+void evaluate(benchmark::State& state, const BenchedBsdf& c) {
     run(state, c, [&c](const Query& q) { return c.bsdf.evaluate(q.to_previous, q.to_next); });
 }
 
-void sample(benchmark::State& state, const Kind& c) {
+void sample(benchmark::State& state, const BenchedBsdf& c) {
     run(state, c, [&c](const Query& q) { return c.bsdf.sample(q.to_previous, q.lobe, q.u); });
 }
 
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv))
         return 1;
-    for (const Kind& c : one_of_each_kind()) {
+    for (const BenchedBsdf& c : benched_bsdfs()) {
         benchmark::RegisterBenchmark((std::string("evaluate/") + c.name).c_str(), evaluate, c);
         benchmark::RegisterBenchmark((std::string("sample/") + c.name).c_str(), sample, c);
     }

@@ -1,10 +1,8 @@
-// What it costs to share jobs through a folder: of thousands of jobs that take no time, how many a second so many
-// workers claim and finish, and how long the looks at the whole folder take.
+// claims_bench FOLDER [JOBS [WORKERS [MILLISECONDS]]]: measures the cost of dividing jobs by claims in a folder.
 //
-//     claims_bench FOLDER [JOBS [WORKERS [MILLISECONDS]]]
-//
-// Makes JOBS files (100000) in FOLDER, an empty or new one on the file system to be measured, by WORKERS threads
-// (1000), each a worker of its own whose jobs last for MILLISECONDS of sleep (0).
+// WORKERS threads (1000), each an independent worker, do JOBS jobs (100000). A job sleeps for MILLISECONDS (0) and
+// makes one file in FOLDER. FOLDER must be empty or new, and lies on the file system to be measured. Prints jobs
+// per second, the pauses between two jobs of a worker, and the time of one listing of the folder.
 #include "app/experiment/job_worker.h"
 
 #include <algorithm>
@@ -34,15 +32,15 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// What all workers have seen.
+/// Results of all workers.
 struct Tally {
     std::mutex mutex;
-    std::vector<double> pauses;          ///< seconds between two jobs of one worker
-    std::atomic<std::size_t> done = 0;   ///< as often as they were
-    std::atomic<std::size_t> looked = 0; ///< how often a file was looked for
+    std::vector<double> pauses;          ///< seconds between two jobs of a worker
+    std::atomic<std::size_t> done = 0;   ///< jobs run; one that two workers run counts twice
+    std::atomic<std::size_t> checks = 0; ///< lookups of a job's file
 };
 
-/// Jobs that do nothing.
+/// Jobs that only sleep.
 class Stubs final : public tessera::JobList {
 public:
     Stubs(fs::path folder, std::size_t size, double seconds, Tally& tally)
@@ -57,7 +55,7 @@ public:
         return folder_ / fmt::format("scene-1a2b3c4d-seed{}.jsonl", job);
     }
     bool is_done(std::size_t job) override {
-        ++tally_.looked;
+        ++tally_.checks;
         return fs::exists(file_of(job));
     }
     bool are_all_done() override { return fs::exists(folder_ / "report"); }
@@ -66,7 +64,7 @@ public:
             pauses_.push_back(seconds_since(end_));
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
         ++tally_.done;
-        end_ = Clock::now(); // to write what was found is a part of the pause
+        end_ = Clock::now(); // the pause includes writing the result
         has_begun_ = true;
         claim.finish("");
         return true;
@@ -82,8 +80,9 @@ private:
     Clock::time_point end_;
 };
 
-double quantile(const std::vector<double>& sorted, double share) {
-    return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+double quantile(const std::vector<double>& sorted, double fraction) {
+    return sorted.empty() ? 0
+                          : sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
 }
 
 double cpu_seconds() {
@@ -106,7 +105,7 @@ int main(int argc, char** argv) {
     const auto jobs = static_cast<std::size_t>(argc > 2 ? std::atoi(argv[2]) : 100000);
     const int workers = argc > 3 ? std::atoi(argv[3]) : 1000;
     const double seconds = argc > 4 ? 1e-3 * std::atof(argv[4]) : 0;
-    // A thousand workers of one machine wait long for its processors: that is no death.
+    // Long enough that threads that wait for a core are not taken for dead.
     constexpr double silence = 600;
     fs::create_directories(folder);
     Tally tally;
@@ -117,7 +116,7 @@ int main(int argc, char** argv) {
             threads.emplace_back([&] {
                 Stubs stubs(folder, jobs, seconds, tally);
                 tessera::JobWorker(stubs, silence).run([] {});
-                std::ofstream(folder / "report") << "\n"; // as who finds all done marks it
+                std::ofstream(folder / "report") << "\n"; // marks all jobs as done
             });
     }
     const double all = seconds_since(begin);
@@ -125,12 +124,12 @@ int main(int argc, char** argv) {
     fmt::print("{} jobs by {} workers: {} done in {:.1f} s, {:.0f} a second; {:.1f} CPU s\n", jobs, workers,
                tally.done.load(), all, static_cast<double>(tally.done) / all, cpu_seconds());
     fmt::print(
-        "between two jobs: median {:.2g} ms, 99 % below {:.3g} ms, at most {:.3g} ms; {:.2g} looks for a file a "
+        "between two jobs: median {:.2g} ms, 99 % below {:.3g} ms, at most {:.3g} ms; {:.2g} file lookups per "
         "job\n",
         1e3 * quantile(tally.pauses, 0.5), 1e3 * quantile(tally.pauses, 0.99), 1e3 * quantile(tally.pauses, 1),
-        static_cast<double>(tally.looked) / static_cast<double>(jobs));
-    const Clock::time_point look = Clock::now();
+        static_cast<double>(tally.checks) / static_cast<double>(jobs));
+    const Clock::time_point listing_begin = Clock::now();
     const auto files = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-    fmt::print("one look at the folder of {} files: {:.3g} ms\n", files, 1e3 * seconds_since(look));
+    fmt::print("one listing of the folder ({} files): {:.3g} ms\n", files, 1e3 * seconds_since(listing_begin));
     return 0;
 }

@@ -1,12 +1,12 @@
-// Footprints of base paths of scenes: what the scalar form and the parallelogram of two vectors have of the area
-// of the sum of all differential vectors, by vertex, with a chart; and what they cost.
+// footprint_bench [CHART.svg [SAMPLES [SCENE.xml...]]]: compares the footprints of base paths.
 //
-//     footprint_bench [CHART.svg [SAMPLES [SCENE.xml...]]]
-//
-// Without scenes of three rooms, where they are there, and of metal.
-#include "render/paths/base_path.h"
+// For each vertex, prints the area of the scalar form, METHODS (25) and (26), and that of the parallelogram of two
+// vectors. Both are relative to the area of the Minkowski sum of all differential vectors. Also prints the cost of
+// computing them, and writes a chart of the scalar form. SAMPLES is the number of samples per pixel (16). The
+// default scenes are three of ../shared/scenes, if they exist, and assets/stability/glossy.xml.
 #include "render/inspect/path_differentials.h"
 #include "render/load/mitsuba_xml.h"
+#include "render/paths/base_path.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ namespace tessera {
 namespace {
 
 constexpr glm::ivec2 size(320, 180);
-constexpr int most_vertices = 4, paths_a_turn = 200, turns = 100;
+constexpr int max_vertices = 4, paths_per_turn = 200, turns = 100;
 
 double cpu_seconds() {
     timespec now{};
@@ -34,28 +34,28 @@ double cpu_seconds() {
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-/// 10 %, median and 90 %.
+/// The 10 % quantile, the median and the 90 % quantile.
 using Quantiles = std::array<double, 3>;
 
 Quantiles quantiles(std::vector<double> numbers) {
     std::sort(numbers.begin(), numbers.end());
-    const auto at = [&](double share) {
-        return numbers[static_cast<std::size_t>(share * static_cast<double>(numbers.size() - 1))];
+    const auto at = [&](double fraction) {
+        return numbers[static_cast<std::size_t>(fraction * static_cast<double>(numbers.size() - 1))];
     };
     return {at(0.1), at(0.5), at(0.9)};
 }
 
 struct Areas {
-    std::vector<double> scalar, reduced; ///< over the sum of all
+    std::vector<double> scalar, reduced; ///< areas, relative to that of the Minkowski sum
 };
 
 struct Measured {
     std::string name;
-    std::array<Areas, most_vertices> areas;
-    std::vector<double> scalar_cost, full_cost; ///< of each turn, over the time of the same paths alone
+    std::array<Areas, max_vertices> areas;
+    std::vector<double> scalar_cost, full_cost; ///< of each turn: extra time relative to the paths alone
 };
 
-/// Base paths of a scene, each traced alone, and with what is to be measured.
+/// Measures the footprints of base paths of a scene, and their cost.
 class Measurement {
 public:
     Measurement(const Scene& scene, double samples)
@@ -65,9 +65,9 @@ public:
         Measured m{std::move(name), {}, {}, {}};
         for (std::uint32_t turn = 0; turn < turns; ++turn) {
             double alone = 0, scalar = 0, full = 0;
-            // Neither is first whenever caches are cold.
-            for (const std::uint32_t what : {turn % 3, (turn + 1) % 3, (turn + 2) % 3})
-                (what == 0 ? alone : what == 1 ? scalar : full) = least_seconds_of(turn, what);
+            // The order rotates, so cold caches affect all variants equally.
+            for (const std::uint32_t variant : {turn % 3, (turn + 1) % 3, (turn + 2) % 3})
+                (variant == 0 ? alone : variant == 1 ? scalar : full) = min_seconds_of(turn, variant);
             m.scalar_cost.push_back(scalar / alone - 1);
             m.full_cost.push_back(full / alone - 1);
         }
@@ -90,29 +90,31 @@ private:
         trace_base_path(tracer, ray_, projection_.pixel_width(), Random(1, i, 0), path_);
     }
 
-    /// Of the path traced last.
+    /// Computes the scalar footprints of the last traced path.
     void find_scalar() { scalar_footprints(path_, projection_.pixel_width(), ray_.origin, log_samples_, widths_); }
+    /// Calls visit(vertex, derivatives) for each vertex of the last traced path.
     template <class Visit>
     void find_full(std::uint32_t i, Visit&& visit) {
-        differentiate(scene_, projection_, pixel(i), glm::vec2(0), path_, hits_, along_, visit);
+        differentiate(scene_, projection_, pixel(i), glm::vec2(0), path_, hits_, differentiation_, visit);
     }
 
-    /// The machine may be busy with other work, which never makes anything faster.
-    double least_seconds_of(std::uint32_t turn, std::uint32_t what) {
-        double least = seconds_of(turn, what);
+    /// Returns the least of 15 timings, as other work on the machine can only slow them down.
+    double min_seconds_of(std::uint32_t turn, std::uint32_t variant) {
+        double seconds = seconds_of(turn, variant);
         for (int again = 0; again < 14; ++again)
-            least = std::min(least, seconds_of(turn, what));
-        return least;
+            seconds = std::min(seconds, seconds_of(turn, variant));
+        return seconds;
     }
 
-    /// @param what  0: paths, 1: and scalar footprints, 2: and full differentials with their footprints
-    double seconds_of(std::uint32_t turn, std::uint32_t what) {
+    /// Returns the CPU seconds of one turn.
+    /// @param variant  0: paths alone, 1: with scalar footprints, 2: with full differentials and their footprints
+    double seconds_of(std::uint32_t turn, std::uint32_t variant) {
         const double begin = cpu_seconds();
-        for (std::uint32_t i = turn * paths_a_turn; i < (turn + 1) * paths_a_turn; ++i) {
-            trace(i, what == 2 ? &hits_ : nullptr);
-            if (what == 1)
+        for (std::uint32_t i = turn * paths_per_turn; i < (turn + 1) * paths_per_turn; ++i) {
+            trace(i, variant == 2 ? &hits_ : nullptr);
+            if (variant == 1)
                 find_scalar();
-            if (what == 2)
+            if (variant == 2)
                 find_full(i, [&](int, const PathDerivatives& d) { sink_ += footprint(d, rule_).a.x; });
         }
         return cpu_seconds() - begin;
@@ -121,16 +123,16 @@ private:
     void compare(std::uint32_t i, Measured& m) {
         find_scalar();
         find_full(i, [&](int v, const PathDerivatives& d) {
-            if (v >= most_vertices)
+            if (v >= max_vertices)
                 return;
             const NumberVectors vectors = differential_vectors(d, rule_);
-            const float all = area_of_sum(vectors, d.count, d.normal),
+            const float sum_area = area_of_sum(vectors, d.count, d.normal),
                         width = widths_[static_cast<std::size_t>(v)];
-            if (!(all > 0))
+            if (!(sum_area > 0))
                 return;
             Areas& a = m.areas[static_cast<std::size_t>(v)];
-            a.scalar.push_back(double(width * width / all));
-            a.reduced.push_back(double(reduce(vectors, d.count, d.normal).area() / all));
+            a.scalar.push_back(double(width * width / sum_area));
+            a.reduced.push_back(double(reduce(vectors, d.count, d.normal).area() / sum_area));
         });
     }
 
@@ -142,14 +144,14 @@ private:
     Ray ray_;
     BasePath path_;
     std::vector<Hit> hits_;
-    Differentiation along_;
+    Differentiation differentiation_;
     std::vector<float> widths_;
     float sink_ = 0;
 };
 
 void print(const Measured& m) {
     fmt::print("{}\n", m.name);
-    for (int v = 0; v < most_vertices; ++v) {
+    for (int v = 0; v < max_vertices; ++v) {
         const Areas& a = m.areas[static_cast<std::size_t>(v)];
         if (a.scalar.empty())
             continue;
@@ -161,18 +163,19 @@ void print(const Measured& m) {
     }
     const Quantiles scalar = quantiles(m.scalar_cost), full = quantiles(m.full_cost);
     fmt::print(
-        "  cost over the paths' time, median of {} turns (10 %, 90 %): scalar {:.1f} % ({:.1f}, {:.1f}), full "
+        "  cost relative to the paths, median of {} turns (10 %, 90 %): scalar {:.1f} % ({:.1f}, {:.1f}), full "
         "{:.1f} % ({:.1f}, {:.1f})\n",
         turns, 100 * scalar[1], 100 * scalar[0], 100 * scalar[2], 100 * full[1], 100 * full[0], 100 * full[2]);
 }
 
-/// The scalar form over all vectors: a bar from 10 to 90 % with its median for each vertex of each scene.
+/// Writes a chart of the scalar form's relative areas: for each scene and vertex, a bar from the 10 % to the 90 %
+/// quantile, with the median.
 void write_chart(const std::string& file, const std::vector<Measured>& all) {
-    constexpr double top = 20, low = 280, left = 60, step = 24, gap = 28, decades = 2; // 0.03 to 3
+    constexpr double top = 20, bottom = 280, left = 60, step = 24, gap = 28, decades = 2; // 0.03 to 3
     const auto y = [&](double ratio) {
-        return low - (low - top) * (std::clamp(std::log10(ratio), -1.5, 0.5) + 1.5) / decades;
+        return bottom - (bottom - top) * (std::clamp(std::log10(ratio), -1.5, 0.5) + 1.5) / decades;
     };
-    const double width = left + double(all.size()) * (most_vertices * step + gap) + 20;
+    const double width = left + double(all.size()) * (max_vertices * step + gap) + 20;
     std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"330\" "
                                   "font-family=\"sans-serif\" font-size=\"12\">\n"
                                   "<rect width=\"{0}\" height=\"330\" fill=\"white\"/>\n",
@@ -184,7 +187,7 @@ void write_chart(const std::string& file, const std::vector<Measured>& all) {
                         left, width - 10, y(ratio), ratio == 1 ? "#444" : "#ddd", left - 6, y(ratio) + 4, ratio);
     double x = left + gap / 2;
     for (const Measured& m : all) {
-        for (int v = 0; v < most_vertices; ++v, x += step) {
+        for (int v = 0; v < max_vertices; ++v, x += step) {
             const Areas& a = m.areas[static_cast<std::size_t>(v)];
             if (a.scalar.empty())
                 continue;
@@ -193,10 +196,10 @@ void write_chart(const std::string& file, const std::vector<Measured>& all) {
                 fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"{:.1f}\" fill=\"#9cc3e6\"/>\n"
                             "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"3\" fill=\"#1f4e79\"/>\n"
                             "<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">x{}</text>\n",
-                            x, y(q[2]), y(q[0]) - y(q[2]), x, y(q[1]) - 1.5, x + 7, low + 16, v + 1);
+                            x, y(q[2]), y(q[0]) - y(q[2]), x, y(q[1]) - 1.5, x + 7, bottom + 16, v + 1);
         }
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
-                           x - step * most_vertices / 2 - 5, low + 36, m.name);
+                           x - step * max_vertices / 2 - 5, bottom + 36, m.name);
         x += gap;
     }
     std::ofstream(file) << svg << "</svg>\n";

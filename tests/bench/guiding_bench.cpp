@@ -1,11 +1,10 @@
-// What path guiding does to a method's noise and cost: renders with and without it take turns, seed by seed.
+// guiding_bench SCENE.xml [METHOD [SEEDS [SPP [auto]]]]: measures the effect of path guiding on noise and cost.
 //
-//     guiding_bench SCENE.xml [METHOD [SEEDS [SPP [auto]]]]
-//
-// For 8, 32, ... samples a pixel, in 320x180: CPU seconds, and the variance of the primal from seed to seed over
-// the squared mean of all, in the mean over the pixels and without the worst thousandth; and how many times less
-// variance times CPU seconds there is with it. Beside that, what guides would leave of the second moments, as the
-// first pass and those before the last power of two have told. "auto": with it where it pays.
+// Renders 320x180 pixels without and with guiding in turn, seed by seed. For 8, 32, ... samples per pixel up to
+// SPP it prints CPU seconds, and the mean over the pixels of the primal's relative variance across seeds. It also
+// prints the ratio of variance x CPU time without and with guiding, of all pixels and without the worst 0.1 %. The
+// last figure is the fraction of the second moment that guiding leaves, as the learning passes estimate it
+// (METHODS (23)). "auto" measures --path-guiding auto instead of on.
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
 #include "render/run/thread_pool.h"
@@ -30,9 +29,9 @@ namespace {
 constexpr glm::ivec2 size(320, 180);
 
 struct Measured {
-    std::vector<RgbImage> pictures;     ///< one a seed
-    double cpu_seconds = 0;             ///< of all
-    double remaining_second_moment = 0; ///< the sum over all seeds, as in PathGuiding
+    std::vector<RgbImage> pictures;     ///< one per seed
+    double cpu_seconds = 0;             ///< of all seeds
+    double remaining_second_moment = 0; ///< PathGuiding::remaining_second_moment(), summed over the seeds
 };
 using ByGuiding = std::array<Measured, 2>; ///< off, on
 
@@ -40,7 +39,7 @@ double value(const RgbImage& picture, int pixel) {
     return double(luminance(picture.data()[pixel]));
 }
 
-/// Squares of the pixels' means over all pictures, and a small one, for dark pixels.
+/// Returns each pixel's squared mean over all pictures, plus 0.02 of the image's squared mean for dark pixels.
 std::vector<double> squared_means(const ByGuiding& all) {
     std::vector<double> means(std::size_t(size.x * size.y));
     for (const Measured& m : all)
@@ -53,7 +52,7 @@ std::vector<double> squared_means(const ByGuiding& all) {
     return means;
 }
 
-/// Relative variance in the mean of all pixels, and of all but the worst thousandth.
+/// Returns the mean relative variance of all pixels, and that of all but the worst 0.1 %.
 std::array<double, 2> variance(const Measured& m, const std::vector<double>& squared) {
     std::vector<double> pixels;
     const double n = double(m.pictures.size());
@@ -72,12 +71,12 @@ std::array<double, 2> variance(const Measured& m, const std::vector<double>& squ
     return {mean_of(pixels.size()), mean_of(pixels.size() - pixels.size() / 1000)};
 }
 
-/// @param settings  with guiding as it is to be measured
+/// @param settings  `path_guiding` is the mode to compare with `off`
 void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings, int seeds, int spp) {
     const Guiding guided = settings.path_guiding;
     std::map<int, ByGuiding> found; // by samples a pixel
     ThreadPool pool(1);
-    double first_left = 0; // by the first pass
+    double first_left = 0; // estimated by the first pass
     for (int i = 0; i < 2 * seeds; ++i) {
         settings.path_guiding = i % 2 == 1 ? guided : Guiding::off;
         settings.seed = std::uint64_t(i / 2);
@@ -87,7 +86,7 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
             return of_last_pass ? of_last_pass->remaining_second_moment() : 1.0;
         };
         render.pass(pool);
-        render.pass(pool); // the first one that is guided, by what the one before has found
+        render.pass(pool); // the first pass that can be guided; the pass before it has learnt the guides
         if (i % 2 == 1)
             first_left += left() / seeds;
         for (int samples = 8; samples <= spp; samples *= 4) {
@@ -99,13 +98,13 @@ void measure(const std::shared_ptr<const Scene>& scene, RenderSettings settings,
             m.remaining_second_moment += left();
         }
     }
-    fmt::print("of second moments, the first pass finds that guides would leave {:.2f}\n", first_left);
+    fmt::print("second moment that guiding leaves, estimated by the first pass: {:.2f}\n", first_left);
     const std::vector<double> squared = squared_means(found.rbegin()->second);
     for (const auto& [samples, by] : found) {
         const auto off = variance(by[0], squared), on = variance(by[1], squared);
         const double cost = by[1].cpu_seconds / by[0].cpu_seconds;
-        fmt::print("{:4} spp: CPU {:.2f} s, x{:.2f} guided; variance {:.4f} -> {:.4f}, times time {:.2f} times "
-                   "less; without the worst {:.2f}; {:.2f} left of second moments\n",
+        fmt::print("{:4} spp: CPU {:.2f} s, x{:.2f} guided; variance {:.4f} -> {:.4f}; gain in variance x time "
+                   "{:.2f}, without the worst pixels {:.2f}; second moment left {:.2f}\n",
                    samples, by[0].cpu_seconds / seeds, cost, off[0], on[0], off[0] / (on[0] * cost),
                    off[1] / (on[1] * cost), by[1].remaining_second_moment / seeds);
     }

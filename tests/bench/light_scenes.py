@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Errors of PT and G-PR on small scenes with mixtures of lamps, spots, points, sun and environment.
+"""Measures errors of PT and G-PR on small scenes with several kinds of lights.
 
-light_scenes.py FOLDER PROGRAM [PROGRAM...]   prints relMSE at 16 samples a pixel, means over three seeds
+light_scenes.py FOLDER PROGRAM [PROGRAM...]
 
-The scenes and their references (PT of the last program, 4096 samples a pixel) are made in FOLDER where they are missing.
-The last program is compared with the first.
+Prints the mean relMSE of three seeds at 16 samples per pixel for each program, and the ratio of the last to the first.
+The scenes are written to FOLDER. References that are missing there are rendered by the last program (PT, 4096 samples
+per pixel).
 """
 
 import json

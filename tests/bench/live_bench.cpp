@@ -1,5 +1,5 @@
-// live_bench SCENE.xml [SECONDS]: how far reconstructions are behind a render of 1280x720 pixels in the viewer's
-// session, on all hardware threads. Wall time: other work on the machine counts.
+// live_bench SCENE.xml [SECONDS]: measures the delay of reconstructions delays a render of 1280x720 pixels in the
+// viewer's session, on all hardware threads. Delays are wall time, so other work on the machine counts.
 
 #include "recon/picture/oidn.h"
 #include "render/load/mitsuba_xml.h"
@@ -32,8 +32,8 @@ void measure(const std::shared_ptr<const Scene>& scene, Norm norm, double second
     RenderRequest request{scene, scene->camera(), {1280, 720}, {}};
     session.submit(0, std::move(request));
     const auto start = Clock::now();
-    std::map<int, double> published; // samples a pixel -> when
-    std::vector<double> behind;
+    std::map<int, double> published; // samples per pixel -> seconds since the start
+    std::vector<double> delays;
     int reconstructed = 0;
     while (seconds_since(start) < seconds) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -43,16 +43,16 @@ void measure(const std::shared_ptr<const Scene>& scene, Norm norm, double second
         published.emplace(snapshot->spp, seconds_since(start));
         if (snapshot->reconstruction_spp > reconstructed) {
             reconstructed = snapshot->reconstruction_spp;
-            behind.push_back(seconds_since(start) - published[reconstructed]);
+            delays.push_back(seconds_since(start) - published[reconstructed]);
         }
     }
-    std::sort(behind.begin(), behind.end());
-    if (behind.empty())
-        std::printf("%-9s nothing within %.0f s\n", to_string(norm).data(), seconds);
+    std::sort(delays.begin(), delays.end());
+    if (delays.empty())
+        std::printf("%-9s no reconstruction within %.0f s\n", to_string(norm).data(), seconds);
     else
-        std::printf("%-9s %3zu pictures of %3zu published: behind by %.3f s (median), %.3f s (most)\n",
-                    to_string(norm).data(), behind.size(), published.size(), behind[behind.size() / 2],
-                    behind.back());
+        std::printf("%-9s %3zu reconstructions of %3zu pictures: delay %.3f s (median), %.3f s (maximum)\n",
+                    to_string(norm).data(), delays.size(), published.size(), delays[delays.size() / 2],
+                    delays.back());
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-// Rates per CPU second, on one thread, of what paths are made of: base paths, the bare rays in them (which is what
-// Embree leaves to be had), shifts by kind, and the light of whole tiles. Arguments beside Google Benchmark's:
-// names of scenes, ../shared/scenes/NAME/scene.xml or assets/NAME.xml.
+// path_bench [SCENE...]: measures rates per CPU second on one thread: base paths, the bare rays in them (Embree's
+// part of the cost), shifts by kind, and path reuse in whole tiles. SCENE names ../shared/scenes/SCENE/scene.xml
+// or assets/SCENE.xml. Google Benchmark's own options are accepted, too.
 
 #include "render/estimator/base_block.h"
 #include "render/estimator/method_sets.h"
@@ -25,9 +25,9 @@ using namespace tessera;
 
 constexpr glm::ivec2 image_size(640, 360);
 constexpr int max_depth = 8;
-constexpr int gpr_border = 1; // of a set of G-PR beyond its tile, to the right and below
+constexpr int gpr_border = 1; // pixels by which a G-PR sampling set exceeds its tile on the right and below
 
-/// The file of that scene; empty: there is none.
+/// Returns the file of a scene; empty if there is none.
 std::filesystem::path file_of(const std::string& name) {
     for (const std::filesystem::path& file :
          {std::filesystem::path(TESSERA_SHARED_DIR) / "scenes" / name / "scene.xml",
@@ -37,7 +37,7 @@ std::filesystem::path file_of(const std::string& name) {
     return {};
 }
 
-/// Loaded once, by the first benchmark that asks; null: there is no such scene.
+/// Returns a scene, loaded by the first call that names it; null if there is no such scene.
 const Scene* scene_named(const std::string& name) {
     static std::map<std::string, std::unique_ptr<const Scene>> scenes;
     const auto [entry, is_new] = scenes.try_emplace(name);
@@ -46,7 +46,7 @@ const Scene* scene_named(const std::string& name) {
     return entry->second.get();
 }
 
-/// The first pass of a render, and of its blocks some that lie all over the image.
+/// The first pass of a render, and a few of its blocks, spread over the image.
 struct Stage {
     Stage(const Scene& scene_, const RenderSettings& settings_, int block_count)
         : scene(scene_), settings(settings_), worker(scene, scene.camera(), image_size, settings, nullptr) {
@@ -57,8 +57,8 @@ struct Stage {
         }
     }
 
-    /// A block's pixels and, cut off at the image's border, those that its sets of G-PR have beyond.
-    PixelRect traced(PixelRect block) const {
+    /// Returns a block's pixels with the border that its G-PR sampling sets need, clipped to the image.
+    PixelRect with_border(PixelRect block) const {
         return PixelRect{block.x0, block.y0, block.x1 + gpr_border, block.y1 + gpr_border}.clipped(image_size);
     }
 
@@ -84,7 +84,7 @@ void report(benchmark::State& state, const char* name, double count) {
     state.counters[name] = benchmark::Counter(count, benchmark::Counter::kIsRate);
 }
 
-/// Whole base paths: what path tracing is.
+/// Measures whole base paths, which are all that path tracing needs.
 void base_paths(benchmark::State& state, const Scene& scene) {
     Stage stage(scene, settings_of(), 24);
     for (auto _ : state)
@@ -95,10 +95,10 @@ void base_paths(benchmark::State& state, const Scene& scene) {
     report(state, "rays", static_cast<double>(stage.worker.counters.all_rays()));
 }
 
-/// The rays of the base paths of some blocks, in the order in which they are shot.
+/// The rays of the base paths of some blocks, in the order in which they are traced.
 struct Rays {
     std::vector<Ray> camera;
-    std::vector<Ray> bounces; ///< those that met something, or an environment
+    std::vector<Ray> bounces; ///< that hit a surface or reach an environment
     std::vector<Segment> to_lights;
 };
 
@@ -113,9 +113,9 @@ Rays rays_of(const Scene& scene) {
         for (int i = 0; i < path.size(); ++i) {
             const BaseVertex& v = path[i];
             LightSample drawn;
-            Segment way;
-            if (i + 1 < max_depth && draw_light(tracer, v.vertex, path.random, i + 1, drawn, way))
-                rays.to_lights.push_back(way);
+            Segment segment;
+            if (i + 1 < max_depth && draw_light(tracer, v.vertex, path.random, i + 1, drawn, segment))
+                rays.to_lights.push_back(segment);
             if (i + 1 < path.size() || v.escapes)
                 rays.bounces.push_back(tracer.leave(v.vertex, v.vertex.to_world(v.to_next)));
         }
@@ -144,15 +144,16 @@ void bounce_rays(benchmark::State& state, const Scene& scene) {
 }
 
 void shadow_rays(benchmark::State& state, const Scene& scene) {
-    const std::vector<Segment> ways = rays_of(scene).to_lights;
+    const std::vector<Segment> segments = rays_of(scene).to_lights;
     for (auto _ : state)
-        for (const Segment& way : ways)
-            benchmark::DoNotOptimize(scene.intersector().occluded(way));
-    report(state, "rays", static_cast<double>(state.iterations()) * static_cast<double>(ways.size()));
+        for (const Segment& segment : segments)
+            benchmark::DoNotOptimize(scene.intersector().occluded(segment));
+    report(state, "rays", static_cast<double>(state.iterations()) * static_cast<double>(segments.size()));
 }
 
-/// Every base path of a tile, with the set of G-PR, to all others: shifts alone. The tiles are of several places.
-void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
+/// Measures shifts alone: every base path of a G-PR sampling set to all other pixels of the set, for several
+/// tiles.
+void shift_paths(benchmark::State& state, const Scene& scene, ShiftKind kind) {
     Stage stage(scene, settings_of(6, kind), 24);
     Worker& worker = stage.worker;
     std::vector<BaseBlock> tiles(stage.blocks.size());
@@ -161,7 +162,7 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
         PixelRect tile = stage.blocks[i];
         tile.x1 = tile.x0 + stage.settings.tile;
         tile.y1 = tile.y0 + stage.settings.tile;
-        const PixelRect pixels = stage.traced(tile);
+        const PixelRect pixels = stage.with_border(tile);
         tiles[i].trace(stage.pass, worker.tracer, pixels, {pixels.x0, pixels.y0});
         sets[i].assign(pixels);
         collect(stage.pass, tiles[i], sets[i]);
@@ -177,13 +178,14 @@ void share(benchmark::State& state, const Scene& scene, ShiftKind kind) {
     report(state, "rays", static_cast<double>(worker.counters.all_rays()));
 }
 
-/// What G-PR does with the base paths of whole blocks. Paths: of sets, those at tiles' borders once for each set.
+/// Measures path reuse by G-PR on the base paths of whole blocks. A path counts once for each set that contains
+/// it.
 void reuse_paths(benchmark::State& state, const Scene& scene, int tile, RouletteKind roulette) {
     Stage stage(scene, settings_of(tile, ShiftKind::half_vector, roulette), 6);
     Worker& worker = stage.worker;
     std::vector<BaseBlock> base(stage.blocks.size());
     for (std::size_t i = 0; i < base.size(); ++i)
-        base[i].trace(stage.pass, worker.tracer, stage.traced(stage.blocks[i]),
+        base[i].trace(stage.pass, worker.tracer, stage.with_border(stage.blocks[i]),
                       {std::max(stage.blocks[i].x0, 0), std::max(stage.blocks[i].y0, 0)});
     worker.counters = {};
     for (auto _ : state)
@@ -198,14 +200,14 @@ void reuse_paths(benchmark::State& state, const Scene& scene, int tile, Roulette
     report(state, "shifts", static_cast<double>(worker.counters.shift_attempts()));
 }
 
-/// Registers a benchmark of a scene that is loaded when it runs.
+/// Registers a benchmark. It loads its scene when it runs.
 template <class Function, class... Arguments>
 void add(const std::string& name, const std::string& scene_name, Function function, Arguments... arguments) {
     const auto run = [=](benchmark::State& state) {
         if (const Scene* scene = scene_named(scene_name))
             function(state, *scene, arguments...);
         else
-            state.SkipWithError("there is no such scene here");
+            state.SkipWithError("no such scene");
     };
     benchmark::RegisterBenchmark((scene_name + "/" + name).c_str(), run)->Unit(benchmark::kMillisecond);
 }
@@ -215,10 +217,10 @@ void add_benchmarks(const std::string& scene) {
     add("camera_rays", scene, camera_rays);
     add("bounce_rays", scene, bounce_rays);
     add("shadow_rays", scene, shadow_rays);
-    add("share/half_vector", scene, share, ShiftKind::half_vector);
-    add("share/reconnection", scene, share, ShiftKind::reconnection);
-    add("share/replay", scene, share, ShiftKind::replay);
-    add("share/replay_reconnection", scene, share, ShiftKind::replay_reconnection);
+    add("share/half_vector", scene, shift_paths, ShiftKind::half_vector);
+    add("share/reconnection", scene, shift_paths, ShiftKind::reconnection);
+    add("share/replay", scene, shift_paths, ShiftKind::replay);
+    add("share/replay_reconnection", scene, shift_paths, ShiftKind::replay_reconnection);
     for (int tile : {2, 6, 8}) {
         const std::string name = "reuse_paths/tile_" + std::to_string(tile);
         add(name + "/roulette", scene, reuse_paths, tile, RouletteKind::relative);

@@ -1,5 +1,5 @@
-// Times of the reconstruction, as CPU time of the whole process. Arguments: width, height, threads (and, for L2,
-// 1000 alpha).
+// Measures the CPU time of reconstructions, of the whole process. The numbers in a benchmark's name are width,
+// height, threads and, for L2, 1000 alpha.
 
 #include "recon/picture/reconstruct.h"
 #include "recon/solvers/poisson_direct.h"
@@ -55,7 +55,8 @@ void l2_solve(benchmark::State& state) {
         solver.solve(problem, image, parallel_for);
 }
 
-/// Solves as in a viewer: prepared transforms and memory are kept; a warm start goes on from the last solve.
+/// Reconstructs as the viewer does, with transforms and memory of the last call. A warm start also has its
+/// solution.
 void reconstruction(benchmark::State& state, Norm norm, bool warm) {
     const auto width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
     GradientImages images{noise(width, height, 1, 1), noise(width, height, 2, 0), noise(width, height, 3, 0), {}};
@@ -74,7 +75,8 @@ void reconstruction(benchmark::State& state, Norm norm, bool warm) {
 
 void sizes(benchmark::internal::Benchmark* benchmark) {
     benchmark->Args({1280, 720, 1, 200})->Args({1280, 720, 2, 200})->Args({1280, 720, 1, 1});
-    // No transform fits these: a prime width, two primes, the common laptop, one with a large gap to the next fit.
+    // Widths that are no products of 2, 3 and 5, as the transform needs: a prime, again with a prime height, a
+    // common laptop screen, and one that is far below the next such product.
     for (const auto& [width, height] : {std::pair{1279, 720}, {1279, 719}, {1366, 768}, {1201, 701}})
         benchmark->Args({width, height, 1, 200});
     benchmark->Args({640, 360, 1, 200})->Args({1920, 1080, 1, 200});

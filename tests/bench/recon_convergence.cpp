@@ -1,7 +1,8 @@
-// recon_convergence BUFFERS.exr ONE.exr [CHART.svg]: how far the reconstruction's objective is above its least
-// value, against the number of steps, inner solves of L1 and mixed. BUFFERS is a render of n samples a pixel with
-// its buffers; ONE the same with one sample and another seed. Cold starts solve BUFFERS; warm starts have solved
-// BUFFERS, and go on with the n + 1 samples of both.
+// recon_convergence BUFFERS.exr ONE.exr [CHART.svg]: measures the excess of a reconstruction's objective over its
+// minimum, by the number of steps: inner solves of L1 and mixed, conjugate gradient steps of weighted.
+//
+// BUFFERS is a render of n samples per pixel with its buffers, ONE the same with one sample and another seed. Cold
+// starts solve BUFFERS. Warm starts solve BUFFERS first, and continue with the n + 1 samples of both.
 
 #include "app/commands/commands.h"
 #include "recon/solvers/edge_weights.h"
@@ -30,32 +31,34 @@ double length(Rgb c) {
     return glm::length(glm::dvec3(c));
 }
 
-/// The sum over all gradients of term(misfit, weight), and over all pixels of primal_term(misfit).
+/// Returns the sum of term(misfit, weight) over all gradients, and of primal_term(misfit) over all pixels. Without
+/// `weights`, all weights are 1.
 template <class Term, class PrimalTerm>
 double objective(const GradientImages& g, const RgbImage& image, const EdgeWeights* weights, const Term& term,
                  const PrimalTerm& primal_term) {
     double sum = 0;
     for (int y = 0; y < image.height(); ++y)
         for (int x = 0; x < image.width(); ++x) {
-            const Rgb own = image(x, y);
-            sum += primal_term(length(own - g.primal(x, y)));
+            const Rgb value = image(x, y);
+            sum += primal_term(length(value - g.primal(x, y)));
             if (x + 1 < image.width())
-                sum += term(length(image(x + 1, y) - own - g.dx(x, y)), weights ? weights->x(x, y) : 1);
+                sum += term(length(image(x + 1, y) - value - g.dx(x, y)), weights ? weights->x(x, y) : 1);
             if (y + 1 < image.height())
-                sum += term(length(image(x, y + 1) - own - g.dy(x, y)), weights ? weights->y(x, y) : 1);
+                sum += term(length(image(x, y + 1) - value - g.dy(x, y)), weights ? weights->y(x, y) : 1);
         }
     return sum;
 }
 
+/// Returns the means over n + 1 samples, from those over n samples and one more.
 GradientImages with_one_more(GradientImages images, const GradientImages& one, float samples) {
-    for (const auto part : {&GradientImages::primal, &GradientImages::dx, &GradientImages::dy})
+    for (const auto image : {&GradientImages::primal, &GradientImages::dx, &GradientImages::dy})
         for (std::size_t i = 0; i < images.primal.size(); ++i)
-            (images.*part).data()[i] =
-                (samples * (images.*part).data()[i] + (one.*part).data()[i]) / (samples + 1);
+            (images.*image).data()[i] =
+                (samples * (images.*image).data()[i] + (one.*image).data()[i]) / (samples + 1);
     return images;
 }
 
-/// Solves with L1 or mixed norms, or with weights.
+/// A reconstruction with a norm: L1 or mixed here, weighted in the derived class.
 class Case {
 public:
     Case(const char* name, bool square_primal) : name_(name), square_primal_(square_primal) {}
@@ -72,7 +75,7 @@ public:
             });
     }
 
-    /// The image after `cold` inner solves of g, and then `warm` ones of newer.
+    /// Returns the image after `cold` steps on g, and then `warm` ones on `newer` if it is not null.
     virtual RgbImage solve(const GradientImages& g, int cold, const GradientImages* newer, int warm) const {
         L1Solver solver(g.primal.width(), g.primal.height());
         const L1Settings settings{
@@ -84,15 +87,15 @@ public:
         return image;
     }
 
-    virtual int usual_cold() const { return L1Settings{}.cold_iterations; }
-    virtual int enough() const { return 1500; }
+    virtual int default_cold_steps() const { return L1Settings{}.cold_iterations; }
+    virtual int converged_steps() const { return 1500; } ///< not tuned
 
 private:
     const char* name_;
     bool square_primal_;
 };
 
-/// With weights over squares, as without guides.
+/// L2 with a weight for each gradient, as Norm::weighted.
 class WeightedCase : public Case {
 public:
     WeightedCase() : Case("weighted", true) {}
@@ -117,19 +120,19 @@ public:
         return image;
     }
 
-    int usual_cold() const override { return WeightedSettings{}.cold_iterations; }
-    int enough() const override { return 150; }
+    int default_cold_steps() const override { return WeightedSettings{}.cold_iterations; }
+    int converged_steps() const override { return 150; }
 };
 
 ChartSeries measure(const Case& c, const char* start, const GradientImages& g, const GradientImages* newer,
                     std::initializer_list<int> solves) {
     const GradientImages& data = newer ? *newer : g;
-    const double least = c.objective_of(data, c.solve(data, c.enough(), nullptr, 1));
+    const double minimum = c.objective_of(data, c.solve(data, c.converged_steps(), nullptr, 1));
     ChartSeries series{std::string(c.name()) + ", " + start, {}};
     for (const int n : solves) {
-        const RgbImage image = newer ? c.solve(g, c.usual_cold(), newer, n) : c.solve(g, n, nullptr, 1);
-        const double excess = c.objective_of(data, image) / least - 1;
-        std::printf("%-18s %3d steps: %8.3f %% above the least\n", series.label.c_str(), n, 100 * excess);
+        const RgbImage image = newer ? c.solve(g, c.default_cold_steps(), newer, n) : c.solve(g, n, nullptr, 1);
+        const double excess = c.objective_of(data, image) / minimum - 1;
+        std::printf("%-18s %3d steps: %8.3f %% above the minimum\n", series.label.c_str(), n, 100 * excess);
         series.points.push_back({static_cast<double>(n), 100 * excess});
     }
     return series;
@@ -146,7 +149,7 @@ int main(int argc, char** argv) {
         const GradientImages newer = with_one_more(input.images, one.images, settings.at("spp").get<float>());
         ChartPlot plot;
         plot.x_label = "steps";
-        plot.y_label = "objective above the least, %";
+        plot.y_label = "objective above the minimum, %";
         const Case l1("L1", false), mixed("mixed", true);
         const WeightedCase weighted;
         for (const Case* c : {&l1, &mixed, static_cast<const Case*>(&weighted)}) {

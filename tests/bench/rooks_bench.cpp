@@ -1,6 +1,6 @@
-// rooks_bench SCENE.xml [SAMPLES]: what N-rooks patterns of 4, 9 and 16 pixels save in indirect light [Bekaert
-// 2002, table 1]: the variance of a sample of PT over that of PR, where no light comes directly, and the same at
-// equal time. One thread, CPU time.
+// rooks_bench SCENE.xml [SAMPLES]: measures the gain of N-rooks patterns of 4, 9 and 16 pixels for indirect light
+// [Bekaert 2002, table 1]. Prints the variance of PT over that of PR, per sample and at equal CPU time on one
+// thread. Only pixels without direct light count.
 
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
@@ -40,7 +40,7 @@ RenderSettings path_tracing(int max_depth) {
     return settings;
 }
 
-/// The method of 2002: x1 is joined to x2, and all paths are reused.
+/// Path reuse as in [Bekaert 2002]: all paths are reused, and offset paths reconnect at x2.
 RenderSettings rooks(int pixels) {
     RenderSettings settings = path_tracing(8);
     settings.method = Method::pr;
@@ -49,11 +49,11 @@ RenderSettings rooks(int pixels) {
     settings.adapt_tile = false;
     settings.shift = ShiftKind::reconnection;
     settings.roulette = RouletteKind::none;
-    settings.basis = Basis::none; // variances are to be of radiance
+    settings.basis = Basis::none; // measures the variance of radiance itself
     return settings;
 }
 
-/// The variance, summed over the pixels that have light, but none directly.
+/// Returns the sum of the variance over the pixels that neither see a light nor receive direct light.
 double indirect_variance(const GradientImages& images, const RgbImage& direct) {
     double sum = 0;
     for (std::size_t i = 0; i < direct.size(); ++i)
@@ -66,9 +66,9 @@ void measure(const char* file, int samples) {
     const auto scene = std::make_shared<const Scene>(load_mitsuba_xml(file).description);
     const RgbImage direct = render(scene, path_tracing(2), samples).images.primal;
     const Picture pt = render(scene, path_tracing(8), samples);
-    std::printf(
-        "%dx%d pixels, depth 8, %d samples a pixel\n  N  variance of PT's sample / of PR's  at equal time\n",
-        size.x, size.y, samples);
+    std::printf("%dx%d pixels, depth 8, %d samples a pixel\n"
+                "  N       variance per sample, PT / PR  at equal time\n",
+                size.x, size.y, samples);
     for (const int pixels : {4, 9, 16}) {
         const Picture pr = render(scene, rooks(pixels), samples);
         const double gain = indirect_variance(pt.images, direct) / indirect_variance(pr.images, direct);

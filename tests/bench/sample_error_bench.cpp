@@ -1,5 +1,6 @@
-// sample_error_bench SCENE.xml [SAMPLES]: what the samples' own variance says of their relMSE (sample_error.h),
-// over what it is against a reference of two halves with so many samples each, by G-PR; 320x180 pixels, depth 8.
+// sample_error_bench SCENE.xml [SAMPLES]: compares the relMSE of raw samples that estimate_sample_error() returns
+// with the relMSE to a reference. The reference has two halves of SAMPLES (64) samples each, by G-PR. 320x180
+// pixels, depth 8.
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/sample_error.h"
@@ -28,7 +29,7 @@ Render render_of(const std::shared_ptr<const Scene>& scene, Method method, unsig
     return {scene, scene->camera(), {320, 180}, settings};
 }
 
-/// Without emission that the camera sees.
+/// Returns a reconstruction without directly visible emission.
 RgbImage picture(GradientImages images, Norm norm, ThreadPool& pool) {
     images.very_direct = {};
     ReconstructionSettings settings;
@@ -38,25 +39,24 @@ RgbImage picture(GradientImages images, Norm norm, ThreadPool& pool) {
 
 void measure(const std::shared_ptr<const Scene>& scene, int samples) {
     ThreadPool pool(0);
-    std::array<RgbImage, 2> truth;
+    std::array<RgbImage, 2> reference;
     for (unsigned half = 0; half < 2; ++half) {
         Render render = render_of(scene, Method::gpr, 100 + half);
         for (int i = 0; i < samples; ++i)
             render.pass(pool);
-        truth[half] = picture(render.images(), Norm::l2, pool);
+        reference[half] = picture(render.images(), Norm::l2, pool);
     }
     for (const Method method : {Method::pt, Method::pr, Method::gpt, Method::gpr}) {
         Render render = render_of(scene, method, 1);
         for (int spp = 1; spp <= 32; ++spp) {
             render.pass(pool);
-            constexpr int told[] = {2, 4, 12, 32};
-            if (std::find(std::begin(told), std::end(told), spp) == std::end(told))
+            constexpr int printed_spp[] = {2, 4, 12, 32};
+            if (std::find(std::begin(printed_spp), std::end(printed_spp), spp) == std::end(printed_spp))
                 continue;
             const GradientImages images = render.images();
             const RgbImage primal = picture(images, Norm::none, pool);
-            const double error = measure_floor_free_error(primal, truth[0], truth[1]).relative_mse;
-            const auto estimate =
-                estimate_sample_error(images, picture(images, Norm::guided, pool));
+            const double error = measure_floor_free_error(primal, reference[0], reference[1]).relative_mse;
+            const auto estimate = estimate_sample_error(images, picture(images, Norm::guided, pool));
             std::printf("%-3s %2d spp  relMSE %.4g", short_name(method).data(), spp, error);
             if (estimate)
                 std::printf("  estimate %.4g +- %.2g  ratio %.2f\n", estimate->relative_mse,

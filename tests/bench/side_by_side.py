@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""What a change does to the time of a render where it does nothing to pictures: two programs run at once on one CPU,
-so that whatever else the machine does slows both alike. Of one program against itself, on a machine that others used,
-the ratios of rounds were within 0.6 % of 1; of runs that took turns, within 7 %.
+"""Compares the render time of two programs that should render the same pictures. Both run at once on one CPU, so that
+other work on the machine slows both by the same factor.
 
     tests/bench/side_by_side.py [--rounds N] [--cpu N] BEFORE AFTER SCENE... [-- OPTIONS OF render]
 
-For each scene: CPU seconds of render by each program, their ratio, those of the rounds, and whether the pictures are
-the same files."""
+For each scene, prints each program's CPU seconds of render, their ratio, the ratio of each round, and whether the
+pictures are identical files."""
 
 import filecmp
 import json
@@ -15,11 +14,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from two_programs import name_of, parse, parser_of
+from two_programs import make_parser, parse, scene_name
 
 
 def render_both(programs, scene, options, cpu, folder):
-    """The CPU seconds of each program's render."""
+    """Returns the CPU seconds of each program's render."""
     runs = []
     for number, program in enumerate(programs):
         command = ["taskset", "-c", str(cpu), program, "render", scene, "--threads", "1", "--recon", "none", "-o",
@@ -36,7 +35,7 @@ def render_both(programs, scene, options, cpu, folder):
 
 
 def main():
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--cpu", type=int, default=0)
     given, options = parse(parser)
@@ -48,8 +47,8 @@ def main():
             same = filecmp.cmp(folder / "0.exr", folder / "1.exr", shallow=False)
         before, after = (sum(seconds) for seconds in zip(*rounds))
         ratios = " ".join(f"{b / a:.3f}" for a, b in rounds)
-        print(f"{name_of(scene):22s}{before:9.3f}{after:9.3f}{after / before:8.3f}  {ratios}  "
-              f"{'same picture' if same else 'ANOTHER PICTURE'}", flush=True)
+        print(f"{scene_name(scene):22s}{before:9.3f}{after:9.3f}{after / before:8.3f}  {ratios}  "
+              f"{'same picture' if same else 'DIFFERENT PICTURE'}", flush=True)
 
 
 if __name__ == "__main__":

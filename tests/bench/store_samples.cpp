@@ -1,5 +1,6 @@
-// store_samples SCENE.xml OUTPUT WIDTHxHEIGHT METHOD SEED SECONDS[,SECONDS...]: renders and writes the samples
-// taken after so many CPU seconds to OUTPUT-SECONDS.samples; depth 8, one thread.
+// store_samples SCENE.xml OUTPUT WIDTHxHEIGHT METHOD SEED SECONDS[,SECONDS...]: renders with depth 8 on one
+// thread, and writes the samples taken so far to OUTPUT-SECONDS.samples when each number of CPU seconds is
+// reached.
 
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
@@ -29,7 +30,7 @@ void store(char** argv) {
     const std::string scene_file = argv[1], output = argv[2];
     glm::ivec2 size;
     if (std::sscanf(argv[3], "%dx%d", &size.x, &size.y) != 2)
-        throw std::invalid_argument("no size");
+        throw std::invalid_argument(std::string(argv[3]) + ": not WIDTHxHEIGHT");
     RenderSettings settings;
     settings.method = method_named(argv[4]);
     settings.seed = std::strtoull(argv[5], nullptr, 10);

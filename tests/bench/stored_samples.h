@@ -1,4 +1,4 @@
-// Files that hold what a render measured, so that many reconstructions can be compared on the same samples.
+// Files of a render's samples, with which many reconstructions can be compared on the same samples.
 #pragma once
 
 #include "recon/image.h"
@@ -28,7 +28,7 @@ void for_each_stored_image(Images& images, Visit&& visit) {
         visit(*image);
 }
 
-/// Writes the samples to a file of this program's own, in the machine's byte order.
+/// Writes the samples to a private file format in native byte order. Throws std::runtime_error on failure.
 inline void write_samples(const std::filesystem::path& path, const GradientImages& images) {
     std::ofstream file(path, std::ios::binary);
     const auto put = [&](const void* from, std::size_t size) {
@@ -45,7 +45,7 @@ inline void write_samples(const std::filesystem::path& path, const GradientImage
         throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-/// Reads what write_samples() has written. Throws std::runtime_error where the file ends too early.
+/// Reads a file of write_samples(). Throws std::runtime_error if it cannot be read or is too short.
 inline GradientImages read_samples(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const auto get = [&](void* to, std::size_t size) {

@@ -1,12 +1,12 @@
-"""What scripts that compare two programs have in common: their command line, and what a scene is called."""
+"""Command line and scene names, shared by scripts that compare two programs."""
 
 import argparse
 import sys
 from pathlib import Path
 
 
-def parser_of(description):
-    """Takes the two programs and the scenes; further options are added by who asks."""
+def make_parser(description):
+    """Returns a parser of two programs and scenes; callers add further options."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("programs", nargs=2, metavar=("BEFORE", "AFTER"))
     parser.add_argument("scenes", nargs="+", type=Path)
@@ -14,7 +14,7 @@ def parser_of(description):
 
 
 def parse(parser):
-    """The arguments, and the options of `tessera render` that follow a --."""
+    """Returns the parsed arguments, and the options of `tessera render` that follow `--`."""
     arguments, options = sys.argv[1:], []
     if "--" in arguments:
         at = arguments.index("--")
@@ -22,6 +22,6 @@ def parse(parser):
     return parser.parse_args(arguments), options
 
 
-def name_of(scene):
-    """Of a file scene.xml that of its folder."""
+def scene_name(scene):
+    """Returns the name of a scene: that of its file, or of its folder if the file is scene.xml."""
     return scene.parent.name if scene.stem == "scene" else scene.stem

@@ -1,6 +1,7 @@
-// warm_bench SCENE.xml REFERENCE.exr|WIDTHxHEIGHT [SAMPLES]: what pictures that go on from the last one cost
-// beside such as begin anew, one after each pass of G-PR, and, with a reference, which tells the size, what they
-// are worth; depth 8, all hardware threads. Wall time: other work on the machine counts.
+// warm_bench SCENE.xml REFERENCE.exr|WIDTHxHEIGHT [SAMPLES]: compares incremental reconstructions (METHODS,
+// "Incremental reconstruction") with full ones, after each pass of G-PR with depth 8 on all hardware threads.
+// Prints wall time, which other work on the machine affects, and the errors to a reference. A reference also gives
+// the size.
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/seen_error.h"
@@ -23,13 +24,13 @@ namespace {
 
 using namespace tessera;
 
-void print(const char* how, const Reconstruction& made, const std::optional<ReferenceImage>& reference) {
-    std::printf("; %s %.3f s", how, made.seconds);
+void print(const char* how, const Reconstruction& reconstruction, const std::optional<ReferenceImage>& reference) {
+    std::printf("; %s %.3f s", how, reconstruction.seconds);
     if (!reference)
         return;
     const auto& [one, other] = reference->halves;
-    std::printf(", relMSE %.5f, %.2f dB", measure_floor_free_error(made.image, one, other).relative_mse,
-                psnr(made.image, one, other));
+    std::printf(", relMSE %.5f, %.2f dB", measure_floor_free_error(reconstruction.image, one, other).relative_mse,
+                psnr(reconstruction.image, one, other));
 }
 
 void measure(const std::shared_ptr<const Scene>& scene, glm::ivec2 size,
@@ -44,9 +45,9 @@ void measure(const std::shared_ptr<const Scene>& scene, glm::ivec2 size,
         render.pass(pool);
         const GradientImages images = render.images();
         std::printf("%3d samples", spp);
-        print("anew", reconstruct(images, {}, pool.row_loops()), reference);
-        const Reconstruction next = reconstructor.reconstruct(images, {}, pool.row_loops());
-        print(next.goes_on ? "going on" : "found   ", next, reference);
+        print("full", reconstruct(images, {}, pool.row_loops()), reference);
+        const Reconstruction incremental = reconstructor.reconstruct(images, {}, pool.row_loops());
+        print(incremental.goes_on ? "incremental" : "restarted  ", incremental, reference);
         std::printf("\n");
     }
 }

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What it costs to divide a sweep among workers: CPU seconds of eight on one folder, over those of one.
+"""Measures the cost of dividing a sweep among workers: CPU seconds of eight workers over those of one.
 
     tests/bench/workers.py PROGRAM SCENE [--workers 8] [--rounds 3] [--spp 256]
 
-Sweeps the scene in 160x90 pixels by samples (64 jobs of one thread each, references made before), by one worker and by
-several in turn, each time in a new folder, and prints the CPU seconds (user and system, loading and reports included) of
-both, their ratio, and what of it was measured as rendering.
+Runs a sweep of 64 single-threaded jobs of 160x90 pixels, by one worker and by several in turn, each time in a new folder.
+References are rendered before. Prints the CPU seconds of both (user and system, with loading and reports) and their ratio;
+in brackets, the same for rendering alone.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from pathlib import Path
 
 
 def sweep(given, folder, workers):
-    """CPU seconds of all processes, and those that the jobs say they took."""
+    """Returns the CPU seconds of all processes, and the sum of those that the jobs report for rendering."""
     command = [given.program, "sweep", given.scene, "-m", "gpr", "--vary", "tile=2,4,6,8", "--seeds", "16", "--size", "160x90",
                "--spp", str(given.spp), "--reference-spp", "64", "--threads", "1", "--reference", folder / "refs", "-o",
                folder / f"out-{workers}-{os.times().elapsed}"]
@@ -41,7 +41,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         spp, given.spp = given.spp, 1
-        sweep(given, folder, 1)  # the references
+        sweep(given, folder, 1)  # renders the references
         given.spp = spp
         for _ in range(given.rounds):
             one, measured_by_one = sweep(given, folder, 1)

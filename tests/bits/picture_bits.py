@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Prints a checksum of the pixels of small pictures by all four methods: of the stability scenes, and of the scenes in
-the folders given. Two programs whose lists are alike render the same bits.
+"""Prints checksums of small pictures by all four methods, of the stability scenes and of the given scenes. Two programs
+with equal lists render the same bits.
 
     tests/bits/picture_bits.py build/release/app/tessera [FOLDER/scene.xml ...] > bits.txt
 
-Headers are left out, as they have times and versions; what is hashed is every block of pixels, all layers together."""
+The checksum covers the pixel blocks of all layers, but not the header, which contains times and versions."""
 import argparse
 import hashlib
 import pathlib
@@ -18,13 +18,13 @@ METHODS = ["pt", "pr", "gpt", "gpr"]
 
 
 def pixel_blocks(file):
-    """The bytes of a single-part EXR file behind its header and its table of offsets."""
+    """Returns the bytes of a single-part EXR file that follow its header and its offset table."""
     data = file.read_bytes()
     at, rows, lines_a_block = 8, 0, {0: 1, 1: 1, 2: 1, 3: 16, 4: 32}
     compression = 0
     while data[at]:
         name, at = data[at : data.index(0, at)], data.index(0, at) + 1
-        at = data.index(0, at) + 1  # its type
+        at = data.index(0, at) + 1  # skips its type
         size = struct.unpack_from("<i", data, at)[0]
         if name == b"compression":
             compression = data[at + 4]

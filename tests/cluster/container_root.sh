@@ -1,8 +1,7 @@
 #!/bin/sh
-# tests/cluster/container_root.sh FOLDER: the steps of Containerfile without a container engine, in a root of Debian made by
-# debootstrap: what RUN says, then the program on the scene of the recipes. As root, with debootstrap installed; takes
-# packages from the network, 3 GB, and as long as the program takes to build. For the limits of builds:
-# CMAKE_BUILD_PARALLEL_LEVEL=2.
+# tests/cluster/container_root.sh FOLDER: runs the steps of Containerfile without a container engine, in a Debian root made
+# by debootstrap. After the RUN commands it runs the program on the scene of the recipes. Needs root, debootstrap, the
+# network, 3 GB of disk space and the time of a build. CMAKE_BUILD_PARALLEL_LEVEL limits the build's processes.
 set -eu
 here=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(realpath "$1")
@@ -16,7 +15,7 @@ cp "$here/assets/cornell-box.xml" "$root/work/box.xml"
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 run=$(sed -n 's/^RUN //p' "$here/Containerfile")
 entry=$(sed -n 's/^ENTRYPOINT \["\(.*\)"\]$/\1/p' "$here/Containerfile")
-# The mounts go with the namespace: the folder can be removed afterwards.
+# The mounts vanish with the namespace, so the folder can be removed afterwards.
 unshare -m sh -euc '
     mount --bind /proc "$1/proc"
     mount --bind /dev "$1/dev"

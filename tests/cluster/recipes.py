@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Runs the recipes of CLUSTER.md as they are printed there.
+"""Runs the recipes of CLUSTER.md exactly as they are printed there.
 
     tests/cluster/recipes.py PROGRAM
 
-In an empty folder with a scene box.xml and `tessera` on the PATH, the blocks of commands are run one after the other: those
-of GNU parallel with a server of ssh on the loopback address, the job array by `sbatch --wait` with Slurm on one node
-(slurm.sh), those of podman where it works. Then: all folders have the rows of the first, but for times, and all references
-the bits that they should. Prints a line a block; exit code 1: one failed; 77: what they need is not installed.
+Runs the blocks of commands in turn, in an empty folder with a scene box.xml and `tessera` on the PATH. GNU parallel gets an
+ssh server on the loopback address. The job array runs by `sbatch --wait` with Slurm on one node (slurm.sh). The podman
+block is skipped where podman does not work. Then checks that all folders have the same rows, except for times, and that the
+merged reference has the right bits. Prints a line for each block. Exit code 1: a block failed, 77: a program is missing.
 """
 
 import argparse
@@ -26,7 +26,7 @@ TIMES = {"cpu_seconds", "cpu_seconds_deviation", "reconstruction_cpu_seconds", "
 
 
 def recipes():
-    """Pairs of a heading and a block of commands below it."""
+    """Returns pairs of a heading and a block of commands below it."""
     heading, blocks = "", []
     for match in re.finditer(r"^## ([^\n]*)$|^```sh\n(.*?)^```$", (ROOT / "CLUSTER.md").read_text(), re.M | re.S):
         if match[1]:
@@ -37,13 +37,13 @@ def recipes():
 
 
 def start_ssh(folder):
-    """A server on the loopback address that lets us in by a key of its own; `ssh` without options finds it."""
+    """Starts an ssh server on the loopback address with its own keys. bin/ssh connects to it without further options."""
     keys = folder / "ssh"
     keys.mkdir(mode=0o700)
     for name in ("host", "user"):
         subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", keys / name], check=True)
     shutil.copy(keys / "user.pub", keys / "authorized")
-    environment = keys / "environment.sh"  # a login has the PATH of nobody's profile
+    environment = keys / "environment.sh"  # an ssh login does not inherit our PATH
     environment.write_text(f'export PATH="{folder}/bin:$PATH"\neval "$SSH_ORIGINAL_COMMAND"\n')
     Path("/run/sshd").mkdir(exist_ok=True)
     server = subprocess.Popen(
@@ -62,7 +62,7 @@ def start_ssh(folder):
 
 
 def run(heading, block, folder, environment):
-    """Runs one block; returns what is wrong, or nothing."""
+    """Runs one block. Returns a problem, or an empty string."""
     if heading == "A container":
         if not shutil.which("podman") or subprocess.run(["podman", "info"], capture_output=True).returncode != 0:
             return "skipped: no podman"
@@ -82,8 +82,8 @@ def rows(file):
 
 
 def check(folder, program):
-    """What is wrong with what the recipes have left."""
-    wrong = [f"{name}: other rows than out" for name in ("out-ssh", "out-jobs", "out-slurm")
+    """Returns the problems with the files that the recipes have made."""
+    wrong = [f"{name}: rows differ from those of out" for name in ("out-ssh", "out-jobs", "out-slurm")
              if rows(folder / name / "sweep.json") != rows(folder / "out/sweep.json")]
     for share in folder.glob("*.share"):
         share.unlink()
@@ -95,7 +95,7 @@ def check(folder, program):
     compared = subprocess.run([program, "compare", folder / "again.exr", folder / "ref-of-4.exr", "--json"],
                               capture_output=True, text=True)
     if compared.returncode != 0 or json.loads(compared.stdout)["mse"] != 0:
-        wrong.append("ref-of-4.exr: other bits than of shares that one process rendered after the other")
+        wrong.append("ref-of-4.exr: bits differ from those of shards that one process renders in turn")
     return wrong
 
 
@@ -107,7 +107,7 @@ def main():
     os.environ["PATH"] += ":/usr/sbin"
     missing = [name for name in ("parallel", "sbatch", "slurmctld", "slurmd", "sshd", "ssh") if not shutil.which(name)]
     if missing or os.getuid() != 0:
-        print(f"skipped: this takes root, and {', '.join(missing) or 'nothing more'}")
+        print(f"skipped: needs root, and {', '.join(missing) or 'nothing else'}")
         sys.exit(77)
     wrong = []
     with tempfile.TemporaryDirectory() as name:
@@ -121,8 +121,8 @@ def main():
         server = start_ssh(folder)
         slurm = ROOT / "tests/cluster/slurm.sh"
         try:
-            told = subprocess.run([slurm, folder / "slurm"], check=True, capture_output=True, text=True).stdout
-            environment["SLURM_CONF"] = told.strip().split("=", 1)[1]
+            output = subprocess.run([slurm, folder / "slurm"], check=True, capture_output=True, text=True).stdout
+            environment["SLURM_CONF"] = output.strip().split("=", 1)[1]
             for heading, block in recipes():
                 problem = run(heading, block, folder, environment)
                 print(f"{heading}: {problem or 'done'}", flush=True)
@@ -132,7 +132,7 @@ def main():
             server.terminate()
             subprocess.run([slurm, folder / "slurm", "stop"])
             time.sleep(1)
-    print("\n".join(wrong) or "all is as it should be")
+    print("\n".join(wrong) or "all recipes passed")
     sys.exit(bool(wrong))
 
 

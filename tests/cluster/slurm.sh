@@ -1,6 +1,6 @@
 #!/bin/sh
-# slurm.sh FOLDER: starts Slurm (Debian's slurm-wlm) with one node on the loopback address, all of whose files are in FOLDER,
-# as root or whoever calls; prints what to set for its commands. slurm.sh FOLDER stop: ends it. Nothing is asked of munge.
+# slurm.sh FOLDER: starts Slurm (Debian's slurm-wlm) with one node on the loopback address, as the current user and without
+# munge. All its files are in FOLDER. Prints the variable that Slurm's commands need. slurm.sh FOLDER stop: stops it.
 set -eu
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)

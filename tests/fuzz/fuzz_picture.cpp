@@ -7,14 +7,14 @@
 #include <stdexcept>
 #include <string_view>
 
-// OpenEXR throws std::exceptions of its own.
+// OpenEXR throws its own classes derived from std::exception.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
         const std::string_view bytes(reinterpret_cast<const char*>(data), size);
         const tessera::Bitmap bitmap = tessera::parse_bitmap(bytes, ".tga", true, [] { return true; });
         const auto pixels = static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height);
         tessera::require(bitmap.bytes.size() == 3 * pixels || bitmap.floats.size() == pixels);
-    } catch (const std::exception&) { // what it throws for bad files; anything else is a find
+    } catch (const std::exception&) { // expected for bad files; anything else is a bug
     }
     return 0;
 }

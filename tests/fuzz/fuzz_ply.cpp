@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         tessera::require_sound(mesh);
         tessera::place_mesh(mesh, {});
         tessera::require_placed(mesh);
-    } catch (const std::runtime_error&) { // what it throws for bad files; anything else is a find
+    } catch (const std::runtime_error&) { // expected for bad files; anything else is a bug
     }
     return 0;
 }

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// The first byte is the index of the mesh, the others are the file.
+/// Parses a mesh. The first byte is its index in the file; the other bytes are the file.
 tessera::Mesh parse(const std::uint8_t* data, std::size_t size) {
     if (size == 0)
         return {};
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         tessera::require_sound(mesh);
         tessera::place_mesh(mesh, {});
         tessera::require_placed(mesh);
-    } catch (const std::runtime_error&) { // what it throws for bad files; anything else is a find
+    } catch (const std::runtime_error&) { // expected for bad files; anything else is a bug
     }
     return 0;
 }

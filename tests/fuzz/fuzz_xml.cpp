@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-/// Stands for the reader of image files, which a scene in memory has none of.
+/// Replaces the reader of image files. A scene in memory has none, so it is never called.
 Bitmap read_bitmap(const std::filesystem::path&, bool, const std::function<bool()>&) {
     std::abort();
 }
@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                              static_cast<std::size_t>(shape.material) < scene.materials.size());
             tessera::require(shape.area_light < static_cast<int>(scene.area_lights.size()));
         }
-    } catch (const tessera::LoadError&) { // what it throws for bad scenes; anything else is a find
+    } catch (const tessera::LoadError&) { // expected for bad scenes; anything else is a bug
     }
     return 0;
 }

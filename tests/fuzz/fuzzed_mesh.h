@@ -12,7 +12,7 @@ inline void require(bool holds) {
         std::abort();
 }
 
-/// What a mesh promises to the rest of the program, whatever file it came from.
+/// Checks the invariants of a mesh that the rest of the program relies on. Aborts if one does not hold.
 inline void require_sound(const Mesh& mesh) {
     for (const auto& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i)
@@ -26,7 +26,7 @@ inline void require_sound(const Mesh& mesh) {
                 (attribute.is_of_faces() ? mesh.triangles.size() : mesh.positions.size()));
 }
 
-/// Fails for a mesh that does not hold together, or has normals that cannot be shaded.
+/// Checks the invariants of a placed mesh: as require_sound(), and unit normals.
 inline void require_placed(const Mesh& mesh) {
     require_sound(mesh);
     for (const auto& n : mesh.normals)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh build: builds the fuzz targets with clang in build/fuzz.
-# run.sh TARGET SECONDS: runs one of them; fails when it finds an input that breaks it, and leaves that in build/fuzz.
-# Ends with 77 (skipped) where there is no clang with libFuzzer.
+# run.sh TARGET SECONDS: runs one target. Fails if it finds an input that breaks the target, and writes it to build/fuzz.
+# Exit code 77 (skipped): there is no clang with libFuzzer.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -32,7 +32,7 @@ if [ "$1" = build ]; then
     mkdir -p "$folder"
     has_libfuzzer "$clang" || skip "$clang has no libFuzzer (Debian: libclang-rt-14-dev or libclang-rt-19-dev)"
     cd "$root"
-    # A project that was moved since is configured afresh.
+    # A build folder of another source folder is configured again.
     grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt" 2>/dev/null ||
         cmake --fresh --preset fuzz -DCMAKE_CXX_COMPILER="$clang"
     exec cmake --build "$folder"
@@ -44,11 +44,12 @@ corpus=$folder/corpus/$1
 mkdir -p "$corpus"
 set -- "$1" "$2" "$corpus" "$here/seeds/$1"
 [ "$1" != xml ] || set -- "$@" "$root/assets" "-dict=$here/xml.dict"
-# A byte of a picture may stand for 16384 pixels. OpenEXR takes up to 2 GiB, untouched, where an attribute says so.
+# One byte of a picture can expand to 16384 pixels. OpenEXR allocates up to 2 GiB, untouched, if an attribute asks for it.
 [ "$1" != picture ] || set -- "$@" -max_len=2048 -malloc_limit_mb=2048
 target=$1
 seconds=$2
 shift 2
-# An input that takes more than 10 seconds or 1 GB is a find, too. libFuzzer's own exit code for finds is 77.
+# An input that takes more than 10 seconds or 1 GiB is an error, too. libFuzzer's default exit code for errors, 77,
+# would mean "skipped".
 exec "$program" -error_exitcode=1 -timeout_exitcode=1 -timeout=10 -rss_limit_mb=1024 -max_len=8192 \
     -max_total_time="$seconds" -print_final_stats=1 -artifact_prefix="$folder/$target-" "$@"

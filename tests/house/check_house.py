@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Checks how the sources stand to each other, without a compiler:
+"""Checks the structure of the sources, without a compiler:
 
-  - each file includes what it uses of the standard library, glm and fmt, or a header of ours that it names does: what
-    the library's headers bring along in one release they do not in the next;
-  - no room includes one that stands above it, no headers include each other in a circle;
-  - a room holds at most 31 files, a file at most 400 lines;
-  - no two types of one namespace have one name.
+  - Each file includes the headers of the standard library, glm and fmt whose names it uses, directly or by a project
+    header that it includes. Transitive includes of these libraries differ between releases.
+  - No folder includes a folder that comes later in FOLDERS. No headers include each other in a cycle.
+  - A folder has at most 31 files, a file at most 400 lines.
+  - No two types of one namespace have the same name.
 
-check_house.py [--root FOLDER]    prints what is wrong and ends with 1, or with 0
-    --fix [PATH...]               adds the includes that are missing (clang-format puts them in order), to all files or
-                                  to those whose paths begin so
-    --rooms                       prints the rooms, their sizes and what each one includes
+check_house.py [--root FOLDER]    prints the faults; exit code 1 if there are any
+    --fix [PATH...]               adds missing includes to all files, or to those whose paths begin with a PATH;
+                                  clang-format sorts them
+    --rooms                       prints the folders, their sizes and the folders that each one includes
 """
 
 import argparse
@@ -19,17 +19,17 @@ import sys
 from collections import Counter, defaultdict
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # the tests leave nothing in the sources
+sys.dont_write_bytecode = True  # writes no files into the source folder
 import header_names
 
-# From the inside out: a file includes only files of its own room and of those before it.
-ROOMS = """recon recon/solvers recon/guided recon/picture recon/metrics
+# Source folders in order of dependence: a file includes only files of its own folder and of earlier ones.
+FOLDERS = """recon recon/solvers recon/guided recon/picture recon/metrics
     render/io render/settings render/sampling render/surface render/trace render/scene render/mesh render/load render/film render/paths render/estimator
     render/inspect render/run render/session
     ui/gl ui/state ui/settings ui/inside ui/charts ui/panes ui/jobs ui/panels ui/viewer ui/window
     app/cli app/experiment app/report app/commands app""".split()
-MOST_FILES = 31
-MOST_LINES = 400
+MAX_FILES = 31
+MAX_LINES = 400
 
 STD = header_names.table(header_names.STD) | {"initializer_list": header_names.INITIALIZER_LIST}
 GLM = header_names.table(header_names.GLM)
@@ -53,7 +53,7 @@ SYSTEM_CALL = re.compile(r"(?<![\w>:\])])::(\w+)\(")
 class Source:
     def __init__(self, root, path):
         self.path = path.relative_to(root).as_posix()
-        self.room = path.parent.relative_to(root).as_posix()
+        self.folder = path.parent.relative_to(root).as_posix()
         self.text = path.read_text(encoding="utf-8")
         self.own_includes = []
         self.includes = set()
@@ -67,7 +67,7 @@ class Source:
 
     @staticmethod
     def _blank(match):
-        """Literals and comments go, their lines stay, so that places keep their numbers."""
+        """Replaces a literal or comment, but keeps its line breaks, so that line numbers stay right."""
         text = match.group(0)
         return ("0" if text[0] in "\"'R" else " ") + "\n" * text.count("\n")
 
@@ -79,7 +79,7 @@ class Source:
 
 
 def uses_of(source):
-    """(position, what is used, headers of which one must be included); no headers: the tables do not know the name."""
+    """Yields (position, name used, headers of which one must be included). No headers: the name is in no table."""
     for match in QUALIFIED.finditer(source.code):
         space, name, inner = match.groups()
         whole = match.group(0).lstrip(":")
@@ -110,7 +110,7 @@ def uses_of(source):
 
 
 def braced_loops(code):
-    """Where `for (... : {` stands."""
+    """Yields the positions of `for (... : {`."""
     for match in re.finditer(r"\bfor\s*\(", code):
         depth = 1
         for i in range(match.end(), len(code)):
@@ -128,52 +128,52 @@ def braced_loops(code):
 
 
 def missing_includes(source, sources):
-    """(line, what, header to add, or None for a name unknown), once a header."""
+    """Returns (line, name used, header to add, or None for an unknown name), once per header."""
     named = set(source.own_includes)
     own = sources.get(source.path[:-4] + ".h") if source.path.endswith(".cpp") else None
     if own:
         named |= set(own.own_includes)
     have = source.includes.union(*(sources[path].includes for path in named if path in sources))
     found = {}
-    for position, what, headers in uses_of(source):
+    for position, name, headers in uses_of(source):
         if not headers:
-            found.setdefault(what, (source.line_of(position), what, None))
+            found.setdefault(name, (source.line_of(position), name, None))
         elif not have.intersection(headers):
-            found.setdefault(headers[0], (source.line_of(position), what, headers[0]))
+            found.setdefault(headers[0], (source.line_of(position), name, headers[0]))
     return sorted(found.values(), key=lambda entry: entry[0])
 
 
 def check_includes(sources):
     for source in sources.values():
-        for line, what, header in missing_includes(source, sources):
+        for line, name, header in missing_includes(source, sources):
             if header:
-                yield f"{source.path}:{line}: {what} is used without <{header}>"
+                yield f"{source.path}:{line}: {name} is used without <{header}>"
             else:
-                yield f"{source.path}:{line}: {what} stands in no table of tests/house/header_names.py"
+                yield f"{source.path}:{line}: {name} is in no table of tests/house/header_names.py"
 
 
-def check_rooms(sources):
-    order = {room: i for i, room in enumerate(ROOMS)}
-    sizes = Counter(s.room for s in sources.values() if not s.room.startswith("tests"))
-    for room, size in sorted(sizes.items()):
-        if room not in order:
-            yield f"{room}: tests/house/check_house.py does not know where this room stands"
-        if size > MOST_FILES:
-            yield f"{room}: {size} files, and a room holds at most {MOST_FILES}"
+def check_folders(sources):
+    order = {folder: i for i, folder in enumerate(FOLDERS)}
+    sizes = Counter(s.folder for s in sources.values() if not s.folder.startswith("tests"))
+    for folder, size in sorted(sizes.items()):
+        if folder not in order:
+            yield f"{folder}: not in the list of folders in tests/house/check_house.py"
+        if size > MAX_FILES:
+            yield f"{folder}: {size} files, but a folder has at most {MAX_FILES}"
     for source in sources.values():
         for include in source.own_includes:
-            inner = include.rpartition("/")[0]
-            if source.room in order and order.get(inner, -1) > order[source.room]:
-                yield f"{source.path}: includes {include}, which stands further out"
+            included = include.rpartition("/")[0]
+            if source.folder in order and order.get(included, -1) > order[source.folder]:
+                yield f"{source.path}: includes {include}, which belongs to a later folder"
 
 
-def check_circles(sources):
-    """Each circle of headers once."""
+def check_cycles(sources):
+    """Yields each cycle of includes once."""
     done, trail = set(), []
 
     def walk(path):
         if path in trail:
-            yield "headers in a circle: " + " -> ".join(trail[trail.index(path):] + [path])
+            yield "headers include each other: " + " -> ".join(trail[trail.index(path):] + [path])
         elif path not in done and path in sources:
             trail.append(path)
             for include in sources[path].own_includes:
@@ -189,8 +189,8 @@ def check_circles(sources):
 def check_lengths(sources):
     for source in sources.values():
         lines = source.text.count("\n")
-        if lines > MOST_LINES:
-            yield f"{source.path}: {lines} lines, and a file has at most {MOST_LINES}"
+        if lines > MAX_LINES:
+            yield f"{source.path}: {lines} lines, but a file has at most {MAX_LINES}"
 
 
 NAMESPACE = re.compile(r"^(?:inline\s+)?namespace\b\s*([\w:]*)\s*$")
@@ -199,10 +199,10 @@ TYPE = re.compile(r"^(?:template\s*<.*>\s*)?(?:struct|class|union|enum(?:\s+(?:c
 
 
 def types_of(source):
-    """(line, name with its namespaces) of the types defined, but for those inside of types, functions and namespaces
-    without a name."""
+    """Yields (line, qualified name) of the types that a file defines, except those within types, functions and unnamed
+    namespaces."""
     code = re.sub(r"^[ \t]*#[^\n]*(?:\\\n[^\n]*)*", lambda m: "\n" * m.group(0).count("\n"), source.code, flags=re.M)
-    spaces = []  # of each open brace: the namespace that it opens, or None
+    spaces = []  # for each open brace, the namespace that it opens, or None
     start = 0
     for match in re.finditer(r"[{};]", code):
         if match.group(0) == "{":
@@ -224,15 +224,15 @@ def check_types(sources):
             places[name].append(f"{source.path}:{line}")
     for name, where in sorted(places.items()):
         if len(where) > 1:
-            yield f"{name} is {len(where)} types: {', '.join(where)}"
+            yield f"{name} names {len(where)} types: {', '.join(where)}"
 
 
-def print_rooms(sources):
-    for room in ROOMS:
-        inside = [s for s in sources.values() if s.room == room]
-        uses = {i.rpartition("/")[0] for s in inside for i in s.own_includes} - {room}
-        uses = sorted(uses & set(ROOMS), key=ROOMS.index)
-        print(f"{room}: {len(inside)} files, {sum(s.text.count(chr(10)) for s in inside)} lines <- {' '.join(uses)}")
+def print_folders(sources):
+    for folder in FOLDERS:
+        inside = [s for s in sources.values() if s.folder == folder]
+        uses = {i.rpartition("/")[0] for s in inside for i in s.own_includes} - {folder}
+        uses = sorted(uses & set(FOLDERS), key=FOLDERS.index)
+        print(f"{folder}: {len(inside)} files, {sum(s.text.count(chr(10)) for s in inside)} lines <- {' '.join(uses)}")
 
 
 def fix(root, sources, beginnings):
@@ -264,12 +264,12 @@ def main(arguments=None):
                    for p in (options.root / folder).rglob("*") if p.suffix in (".h", ".cpp"))
     sources = {s.path: s for s in (Source(options.root, p) for p in paths)}
     if options.rooms:
-        return print_rooms(sources)
+        return print_folders(sources)
     if options.fix is not None:
         return fix(options.root, sources, tuple(options.fix) or ("",))
-    faults = [fault for check in (check_includes, check_rooms, check_circles, check_lengths, check_types)
+    faults = [fault for check in (check_includes, check_folders, check_cycles, check_lengths, check_types)
               for fault in check(sources)]
-    print("\n".join(faults) if faults else f"{len(sources)} files: nothing to say")
+    print("\n".join(faults) if faults else f"{len(sources)} files: no faults")
     return 1 if faults else 0
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shows that check_house.py finds what it is there to find: a small house without faults, and one for each fault."""
+"""Tests check_house.py: it reports no fault in a small source tree, and the one fault in each of its variants."""
 
 import contextlib
 import io
@@ -7,10 +7,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # the tests leave nothing in the sources
+sys.dont_write_bytecode = True  # writes no files into the source folder
 import check_house
 
-HOUSE = {
+SOURCES = {
     "recon/image.h": "#pragma once\n\n#include <vector>\n\n#include <glm/vec2.hpp>\n\n"
                      "namespace tessera {\nstruct Image {\n    struct Row {};\n    std::vector<float> pixels;\n};\n}\n",
     "recon/image.cpp": '#include "recon/image.h"\n\nnamespace tessera {\nnamespace {\nstruct Part {};\n}\n'
@@ -22,11 +22,11 @@ HOUSE = {
                             "    struct Row {};\n    Image image;\n};\n}\n",
 }
 
-# What is written in place of a file, or beside the others, and what must be said of it; nothing: no fault.
+# Files that replace or extend those of SOURCES, and the fault that is expected; None: no fault.
 INTERRUPT = '#include <csignal>\n\nvoid reset() {\n    for (int signal : {%s})\n        std::signal(signal, nullptr);\n}\n'
 CASES = [
     ({}, None),
-    # The file that Debian 13 did not compile.
+    # Newer standard libraries do not compile this file, as <csignal> does not include <initializer_list>.
     ({"app/interrupt.cpp": INTERRUPT % "SIGINT, SIGTERM"},
      "app/interrupt.cpp:4: a loop over a braced list is used without <initializer_list>"),
     ({"app/interrupt.cpp": "#include <initializer_list>\n" + INTERRUPT % "SIGINT, SIGTERM"}, None),
@@ -39,25 +39,25 @@ CASES = [
     ({"app/a.cpp": "int a = errno;\n"}, "app/a.cpp:1: errno is used without <cerrno>"),
     ({"app/a.cpp": "int a = ::getpid();\n"}, "app/a.cpp:1: ::getpid is used without <unistd.h>"),
     ({"app/a.cpp": "std::no_such_name a;\n"},
-     "app/a.cpp:1: std::no_such_name stands in no table of tests/house/header_names.py"),
-    # A header named brings what it includes itself, and no more.
+     "app/a.cpp:1: std::no_such_name is in no table of tests/house/header_names.py"),
+    # Includes of a project header count if the file includes that header directly.
     ({"app/a.cpp": '#include "recon/image.h"\nstd::vector<int> a;\n'}, None),
     ({"app/a.cpp": '#include "render/scene/scene.h"\nstd::vector<int> a;\n'},
      "app/a.cpp:2: std::vector is used without <vector>"),
     ({"recon/image.cpp": '#include "render/scene/scene.h"\n'},
-     "recon/image.cpp: includes render/scene/scene.h, which stands further out"),
-    ({"render/cellar/a.cpp": ""}, "render/cellar: tests/house/check_house.py does not know where this room stands"),
+     "recon/image.cpp: includes render/scene/scene.h, which belongs to a later folder"),
+    ({"render/cellar/a.cpp": ""}, "render/cellar: not in the list of folders in tests/house/check_house.py"),
     ({"recon/image.h": '#pragma once\n#include "recon/pixel.h"\n#include <vector>\n#include <glm/vec2.hpp>\n',
       "recon/pixel.h": '#pragma once\n#include "recon/image.h"\n'},
-     "headers in a circle: recon/image.h -> recon/pixel.h -> recon/image.h"),
+     "headers include each other: recon/image.h -> recon/pixel.h -> recon/image.h"),
     ({f"recon/part_{i}.cpp": "" for i in range(28)}, None),
-    ({f"recon/part_{i}.cpp": "" for i in range(29)}, "recon: 32 files, and a room holds at most 31"),
+    ({f"recon/part_{i}.cpp": "" for i in range(29)}, "recon: 32 files, but a folder has at most 31"),
     ({"app/a.cpp": "//\n" * 400}, None),
-    ({"app/a.cpp": "//\n" * 401}, "app/a.cpp: 401 lines, and a file has at most 400"),
+    ({"app/a.cpp": "//\n" * 401}, "app/a.cpp: 401 lines, but a file has at most 400"),
     ({"ui/gl/a.h": "#pragma once\nnamespace tessera {\nenum class Image : char { a };\n}\n"},
-     "tessera::Image is 2 types: recon/image.h:8, ui/gl/a.h:3"),
+     "tessera::Image names 2 types: recon/image.h:8, ui/gl/a.h:3"),
     ({"ui/gl/a.h": "#pragma once\nnamespace tessera {\ntemplate <class T>\nclass Image final : public T {};\n}\n"},
-     "tessera::Image is 2 types: recon/image.h:8, ui/gl/a.h:4"),
+     "tessera::Image names 2 types: recon/image.h:8, ui/gl/a.h:4"),
     ({"ui/gl/a.h": "#pragma once\nnamespace tessera {\nstruct Image;\nstruct Image* image(const Image&);\n"
                    "namespace inner {\nstruct Image {};\n}\n}\n"}, None),
 ]
@@ -65,14 +65,14 @@ CASES = [
 
 def faults_in(files):
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (HOUSE | files).items():
+        for name, text in (SOURCES | files).items():
             path = Path(folder, name)
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
             failed = check_house.main(["--root", folder])
-        return said.getvalue().splitlines() if failed else []
+        return output.getvalue().splitlines() if failed else []
 
 
 def main():
@@ -82,7 +82,7 @@ def main():
         if faults != ([expected] if expected else []):
             bad += 1
             print(f"expected: {expected}\nfound:    {faults}")
-    print(f"{len(CASES) - bad} of {len(CASES)} houses are judged as they should be")
+    print(f"{len(CASES) - bad} of {len(CASES)} source trees give the expected result")
     return 1 if bad else 0
 
 

@@ -1,7 +1,7 @@
-"""Which header declares which name: what check_house.py asks of every source. A name of std, glm or fmt that stands in
-no table is reported, so that the tables stay whole."""
+"""Tables of the headers that declare each name, for check_house.py. It reports names of std, glm or fmt that are in no
+table, so that the tables stay complete."""
 
-# Headers first: the one that the check proposes; others that declare the name as well follow a bar.
+# A line starts with the header that the check proposes. Other headers that declare the names follow after bars.
 STD = """
 algorithm: adjacent_find all_of any_of binary_search clamp copy copy_backward copy_if copy_n count count_if equal
     equal_range fill fill_n find find_end find_first_of find_if find_if_not for_each for_each_n generate generate_n
@@ -158,7 +158,7 @@ glm/vector_relational.hpp: all any equal greaterThan greaterThanEqual lessThan l
 glm/detail/qualifier.hpp|glm/vec2.hpp|glm/vec3.hpp|glm/mat3x3.hpp|glm/mat4x4.hpp: length_t mat qualifier vec
 """
 
-# fmt::join has moved from one header to another between the versions of Debian 12 and 13.
+# Newer versions of fmt declare fmt::join in fmt/ranges.h instead of fmt/format.h.
 FMT = """
 fmt/core.h|fmt/format.h: arg basic_runtime format format_args format_string format_to make_format_args print runtime
     string_view vformat
@@ -166,7 +166,7 @@ fmt/format.h: format_to_n formatted_size formatter memory_buffer to_string
 fmt/ranges.h|fmt/format.h: join
 """
 
-# Names without a namespace in front, or macros.
+# Macros, and names without a namespace.
 PLAIN = """
 cassert: assert
 cerrno: EAGAIN EEXIST EINTR EINVAL ENOENT ENOSPC errno
@@ -178,7 +178,7 @@ cstdlib: EXIT_FAILURE EXIT_SUCCESS
 cstdint: UINT16_MAX UINT32_MAX UINT64_MAX
 """
 
-# Functions of the system, called with :: in front.
+# System functions, called with a leading ::.
 SYSTEM = """
 cstdlib|stdlib.h: mkdtemp mkstemp setenv unsetenv
 fcntl.h: open
@@ -187,7 +187,7 @@ sys/stat.h: fchmod stat
 unistd.h: close fork fsync getpid isatty read syscall unlink write
 """
 
-# The standard says of these that they include <initializer_list>.
+# The standard guarantees that these headers include <initializer_list>.
 INITIALIZER_LIST = tuple("""initializer_list algorithm array deque list map random regex set string unordered_map
     unordered_set utility vector""".split())
 
@@ -195,7 +195,7 @@ ALL_OF_GLM = "glm/glm.hpp"
 
 
 def table(text):
-    """name -> the headers that declare it, the one to propose first."""
+    """Returns a dictionary from names to the headers that declare them; the first is the one to propose."""
     names = {}
     headers = ()
     for line in text.strip().splitlines():

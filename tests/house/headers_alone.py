@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""headers_alone.py BUILD [PATH...]: compiles each of our headers by itself, or those whose paths begin so, with the flags by
-which the build's compile_commands.json compiles the source beside it, and prints those that do not."""
+"""headers_alone.py BUILD [PATH...]: compiles each header alone, or those whose paths begin with a PATH, and prints those that
+do not compile. Flags are those of the most similar source path in the build's compile_commands.json."""
 
 import json
 import os
@@ -15,7 +15,7 @@ FOLDERS = ("recon", "render", "ui", "app", "tests")
 
 
 def flags_of(entry):
-    """What of a command is not its input, its output or its precompiled header."""
+    """Returns the compiler and flags of a command, without input, output, precompiled header, dependences and -O."""
     words = entry.get("arguments") or shlex.split(entry["command"])
     while "=" in words[0] or os.path.basename(words[0]) == "ccache":
         words = words[1:]
@@ -33,7 +33,7 @@ def flags_of(entry):
 
 
 def nearest(header, commands):
-    """The command of the source whose path has most in common with the header's."""
+    """Returns the source whose path has the longest common prefix with the header's."""
     return max(commands, key=lambda source: len(os.path.commonprefix([str(header.with_suffix(".cpp")), source])))
 
 
@@ -48,7 +48,7 @@ def main():
 
     def compile_alone(header):
         entry = commands[nearest(header, commands)]
-        # The header is included by a line of input: compiled itself, it would be warned of its #pragma once.
+        # A line of standard input includes the header, as compilers warn of #pragma once in a main file.
         return subprocess.run(
             flags_of(entry) + ["-fsyntax-only", "-x", "c++", "-"], cwd=entry["directory"], text=True,
             input=f'#include "{header.relative_to(ROOT)}"\n', stderr=subprocess.PIPE, check=False)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Renders scenes with Mitsuba 3 and with Tessera's path tracer, and tests whether both mean the same image.
+"""Renders scenes with Mitsuba 3 and with Tessera's path tracer, and tests whether both images have the same mean.
 
     python3 -m venv venv && venv/bin/pip install mitsuba numpy
     venv/bin/python tests/mitsuba/compare.py build/test/app/tessera [--scenes FOLDER] [names ...]
 
-Exit code 0: all agree, 1: some do not, 77: there is no Mitsuba here.
+Exit code 0: all images agree, 1: some do not, 77: Mitsuba is not installed.
 """
 import argparse
 import os
@@ -23,7 +23,7 @@ except ImportError as error:
     print(f"skipped: {error} (pip install mitsuba numpy)")
     sys.exit(77)
 
-sys.dont_write_bytecode = True  # nothing is left in the source folder
+sys.dont_write_bytecode = True  # writes no files into the source folder
 from resources import make_resources
 from statistics_of_images import judge
 
@@ -36,12 +36,12 @@ class Case:
     name: str
     ours: Path  # the scene file for Tessera
     theirs: str  # the scene for Mitsuba, XML
-    folder: Path  # where its files are
-    real: bool = False  # not written for this comparison: may hold what one of the two cannot read
+    folder: Path  # of the files that the scene refers to
+    real: bool = False  # not written for this comparison; one of the two programs may not be able to read it
 
 
 def own_cases(folder: Path) -> list[Case]:
-    """Scenes of the test with their files, in a folder made for the run."""
+    """Returns the scenes in tests/mitsuba/scenes, written to `folder` with the files that they need."""
     make_resources(mi, folder)
     stage = (HERE / "scenes" / "stage.xml").read_text()
     inside = re.search(r"<scene[^>]*>(.*)</scene>", stage, re.DOTALL).group(1)
@@ -49,7 +49,7 @@ def own_cases(folder: Path) -> list[Case]:
     for path in sorted((HERE / "scenes").glob("*.xml")):
         if path.name == "stage.xml":
             continue
-        # The stage is put in for both: includes are not what is compared here.
+        # The stage is pasted into both, as this test does not compare includes.
         text = re.sub(r'<include filename="stage.xml"\s*/>', lambda _: inside, path.read_text())
         (folder / path.name).write_text(text)
         cases.append(Case(path.stem, folder / path.name, text, folder))
@@ -57,7 +57,7 @@ def own_cases(folder: Path) -> list[Case]:
 
 
 def real_cases(folder: Path, width: int, scratch: Path) -> list[Case]:
-    """Each scene.xml below a folder, small and not too deep, brought to what both programs can read."""
+    """Returns the scenes FOLDER/*/scene.xml, with a small film, depth 8, and only features that both programs have."""
     cases = []
     for path in sorted(folder.glob("*/scene.xml")):
         root = ElementTree.parse(path).getroot()
@@ -70,11 +70,11 @@ def real_cases(folder: Path, width: int, scratch: Path) -> list[Case]:
 
 
 def find_common_ground(root: ElementTree.Element, folder: Path, width: int) -> None:
-    """Sets integrator, sampler and film, and takes away what Mitsuba 3 no longer knows."""
+    """Sets integrator, sampler and film, and replaces what Mitsuba 3 does not support."""
     size = small_size(root, width)
     for parent in list(root.iter()):
         for child in list(parent):
-            # The index outside of metals is 1 in Mitsuba 3.
+            # Mitsuba 3 has no extEta for metals: it is 1.
             if child.tag in ("integrator", "sampler", "film") or child.get("name") in ("extEta", "ext_eta"):
                 parent.remove(child)
     old = root.get("version", "").startswith("0")
@@ -91,23 +91,23 @@ def find_common_ground(root: ElementTree.Element, folder: Path, width: int) -> N
         if element.tag == "string" and name == "filename":
             element.set("value", str((folder / element.get("value")).resolve()))
         elif element.tag == "string" and name in ("filterType", "filter_type"):
-            element.set("value", "bilinear")  # mipmaps are gone
+            element.set("value", "bilinear")  # Mitsuba 3 has no mipmaps
         elif element.tag == "float" and name == "gamma" and element.get("value") in ("1", "1.0"):
             element.tag = "boolean"
             element.set("name", "raw")
             element.set("value", "true")
         elif element.get("type") == "mask" and element.get("id") == "Blinds":
-            # Kitchen: two sheets 0.00027 apart; Mitsuba's single precision steps over the second (by 0.0003 there), and
-            # sees through one where there are two: the picture gets 2.8 % brighter.
+            # Kitchen: two sheets lie 0.00027 apart. Mitsuba's ray offset in single precision, about 0.0003 there, skips
+            # the second one.
             element.find("rgb").set("value", "1")
         elif element.get("type") == "roughdiffuse":
             replace(element, "bsdf", "diffuse", keep=("reflectance",))
-        elif element.get("type") == "sunsky":  # not the same model as ours
+        elif element.get("type") == "sunsky":  # Tessera has another model
             replace(element, "emitter", "constant", keep=())
 
 
 def replace(element: ElementTree.Element, tag: str, kind: str, keep: tuple) -> None:
-    """Makes another plugin of one, with only these parameters of its own."""
+    """Replaces a plugin by another one, which keeps only the parameters named in `keep`."""
     assert element.tag == tag
     element.set("type", kind)
     for child in list(element):
@@ -116,7 +116,7 @@ def replace(element: ElementTree.Element, tag: str, kind: str, keep: tuple) -> N
 
 
 def small_size(root: ElementTree.Element, width: int) -> tuple:
-    """Of an image with the proportions of the scene's film."""
+    """Returns the size of an image of this width with the aspect ratio of the scene's film."""
     variables = {d.get("name"): d.get("value") for d in root.iter("default")}
     film = {
         p.get("name"): int(re.sub(r"\$(\w+)", lambda m: variables[m.group(1)], p.get("value")))
@@ -147,7 +147,7 @@ def render_ours(case: Case, program: str, spp: int, scratch: Path) -> np.ndarray
 
 
 def notes_of(case: Case, program: str) -> list[str]:
-    """What Tessera did not take as it stands, without what this comparison settles itself."""
+    """Returns the features that Tessera ignored, replaced or approximated, except those that this comparison sets."""
     result = subprocess.run([program, "info", str(case.ours)], capture_output=True, text=True)
     settled = ("the reconstruction filter", "the integrator")
     _, _, notes = result.stdout.partition("ignored, replaced or approximated:")
@@ -159,12 +159,12 @@ def notes_of(case: Case, program: str) -> list[str]:
 
 
 def compare(case: Case, options, scratch: Path) -> bool | None:
-    """Whether the two agree; none for a real scene that one of them cannot read."""
+    """Returns whether the two images agree, or None for a real scene that one program cannot read."""
     try:
         notes = notes_of(case, options.tessera)
         ours = render_ours(case, options.tessera, options.spp, scratch)
         theirs = render_theirs(case, options.spp)
-    except Exception as error:  # Mitsuba throws RuntimeError for most things, and others for some
+    except Exception as error:  # Mitsuba throws RuntimeError for most errors, and other types for some
         outcome = "skipped" if case.real else "FAILS"
         print(f"{case.name:24} {outcome}: {' '.join(str(error).split())[-160:]}", flush=True)
         return None if case.real else False
@@ -185,11 +185,11 @@ def parse_options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tessera", help="the program")
     parser.add_argument("names", nargs="*", help="only scenes whose names contain one of these")
-    parser.add_argument("--scenes", type=Path, help="a folder of folders with a scene.xml, compared too")
-    parser.add_argument("--width", type=int, default=64, help="of the images of those, in pixels")
-    parser.add_argument("--spp", type=int, default=64, help=f"samples a pixel of each of the {RUNS} runs")
-    parser.add_argument("--variant", default="scalar_rgb", help="of Mitsuba")
-    parser.add_argument("--keep", help="a folder for the mean images, one .npz a scene")
+    parser.add_argument("--scenes", type=Path, help="also compare the scenes FOLDER/*/scene.xml")
+    parser.add_argument("--width", type=int, default=64, help="width of the images of these scenes, in pixels")
+    parser.add_argument("--spp", type=int, default=64, help=f"samples per pixel of each of the {RUNS} runs")
+    parser.add_argument("--variant", default="scalar_rgb", help="variant of Mitsuba")
+    parser.add_argument("--keep", help="folder for the mean images, one .npz per scene")
     return parser.parse_intermixed_args()
 
 
@@ -201,8 +201,8 @@ def main() -> int:
         print(f"skipped: {error}")
         return 77
     mi.set_log_level(mi.LogLevel.Error)
-    print(f"Mitsuba {mi.__version__}, {RUNS} runs of {options.spp} samples a pixel on each side")
-    print(f"{'scene':24} {'off by % (r, g, b)':>20}  noise  largest |z|     mean z^2")
+    print(f"Mitsuba {mi.__version__}, {RUNS} runs of {options.spp} samples per pixel for each program")
+    print(f"{'scene':24} {'diff. % (r, g, b)':>20}  noise  largest |z|     mean z^2")
     with tempfile.TemporaryDirectory() as scratch:
         cases = own_cases(Path(scratch))
         if options.scenes and options.scenes.is_dir():
@@ -215,7 +215,7 @@ def main() -> int:
     print(f"{sum(agrees is True for agrees in outcomes.values())} of {len(cases)} agree, {skipped} skipped, "
           f"{sum(os.times()[:4]):.0f} CPU seconds")
     if failed:
-        print("not: " + ", ".join(failed))
+        print("failed: " + ", ".join(failed))
     return 1 if failed else 0
 
 

@@ -1,4 +1,4 @@
-"""Bitmaps and meshes for the scenes, made afresh for each run: everything follows from formulas."""
+"""Makes the bitmaps and meshes of the scenes, from formulas."""
 import struct
 import zlib
 from pathlib import Path
@@ -12,7 +12,7 @@ def make_resources(mi, folder: Path) -> None:
     colors = np.stack([0.15 + 0.7 * u, 0.2 + 0.6 * v * (1 - u), 0.8 - 0.6 * v], -1)
     colors[(x // 4 + y // 4) % 3 == 0] *= 0.4
     grey = 0.15 + 0.7 * (0.5 + 0.5 * np.sin(7 * u) * np.cos(5 * v))
-    # Heights repeat at the edges, so that no step is in view where a bitmap starts anew.
+    # Heights are periodic, so that a repeated bitmap has no step at its edge.
     wave = 2 * np.pi
     height = 0.5 + 0.25 * np.sin(2 * wave * u) + 0.25 * np.cos(wave * (u + 2 * v))
     slope_u = 0.35 * np.cos(2 * wave * u)
@@ -41,7 +41,7 @@ def write_png(mi, path: Path, values: np.ndarray) -> None:
 
 
 def sky() -> np.ndarray:
-    """Bluish above, brown below, and a wide warm sun: no part of it is too small for a few samples to find."""
+    """Returns a sky: bluish above, brown below, with a sun wide enough for a few samples to find it."""
     y, x = np.mgrid[0:32, 0:64]
     azimuth, zenith = (x + 0.5) / 64 * 2 * np.pi, (y + 0.5) / 32 * np.pi
     direction = np.stack([np.sin(azimuth) * np.sin(zenith), np.cos(zenith), -np.cos(azimuth) * np.sin(zenith)], -1)
@@ -53,7 +53,7 @@ def sky() -> np.ndarray:
 
 
 class Waves:
-    """A sheet over [-1, 1]^2 with normals and texture coordinates."""
+    """A wavy mesh over [-1, 1]^2 with normals and texture coordinates."""
 
     def __init__(self, n: int):
         v, u = (a.ravel() for a in np.mgrid[0 : n + 1, 0 : n + 1] / n)
@@ -92,7 +92,7 @@ class Waves:
         path.write_bytes("\n".join(header).encode() + vertices.tobytes() + faces.tobytes())
 
     def write_attributes(self, path: Path) -> None:
-        """Colours of vertices, a roughness of theirs, and colours of faces and another of theirs."""
+        """Writes a PLY file with a colour and a roughness for each vertex, and two colours for each face."""
         u, v = self.uvs.T
         colors = np.stack([0.2 + 0.6 * u, 0.7 - 0.5 * v, 0.3 + 0.3 * np.sin(9 * u * v)], -1)
         rough = (0.1 + 0.4 * v)[:, None]
@@ -111,9 +111,9 @@ class Waves:
         path.write_bytes("\n".join(header).encode() + vertices.tobytes() + faces.tobytes())
 
     def write_serialized(self, path: Path) -> None:
-        """Mitsuba's own format, version 4: two meshes and then the offsets of both. The first one is a decoy."""
-        decoy = Waves(2)
-        parts = [decoy.serialized_block(), self.serialized_block()]
+        """Writes Mitsuba's serialized format, version 4: an unused mesh, this mesh, and the offsets of both."""
+        unused = Waves(2)
+        parts = [unused.serialized_block(), self.serialized_block()]
         offsets = [0, len(parts[0])]
         path.write_bytes(b"".join(parts) + struct.pack("<QQI", *offsets, 2))
 

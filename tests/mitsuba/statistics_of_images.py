@@ -1,4 +1,4 @@
-"""Whether two sets of independent renders have the same mean."""
+"""Tests whether two sets of independent renders have the same mean."""
 from dataclasses import dataclass
 from statistics import NormalDist
 
@@ -6,13 +6,13 @@ import numpy as np
 
 
 def z_scores(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a and b: runs along the first axis. Welch's t of each difference of means, turned into a normal z.
+    """Returns Welch's t of each difference of means, converted to a z score. The first axis of a and b are the runs.
 
-    Few runs make t wide; [Wallace 1959] gives the z of equal probability to two digits.
+    t of few runs has wide tails. [Wallace 1959] gives the z of equal probability to two digits.
     """
     var_a, var_b = a.var(0, ddof=1) / len(a), b.var(0, ddof=1) / len(b)
     difference = a.mean(0) - b.mean(0)
-    # Where nothing varies, rounding does: the programs add in other orders, and bytes become colours in other ways.
+    # Pixels without variance differ by rounding: the programs add in other orders, and convert bytes in other ways.
     floor = 2e-5 * (np.abs(a.mean(0)) + np.abs(b.mean(0))) + 1e-7
     variance = var_a + var_b
     t = difference / np.sqrt(variance + floor**2)
@@ -24,24 +24,28 @@ def z_scores(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 @dataclass
 class Verdict:
-    relative: np.ndarray  # of the mean of the image, a channel each: ours / Mitsuba's - 1
-    noise: np.ndarray  # standard error of that
-    largest: float  # |z| of a block of pixels
-    limit: float  # for it
-    mean_square: float  # of z: about 1
-    square_limit: float
+    relative: np.ndarray  # mean of each channel, Tessera's / Mitsuba's - 1
+    noise: np.ndarray  # standard error of `relative`
+    largest: float  # largest |z| of a block of pixels
+    limit: float  # of `largest`
+    mean_square: float  # of z; expected to be 1
+    square_limit: float  # of `mean_square`
     passes: bool
 
 
-def judge(ours: np.ndarray, theirs: np.ndarray, tolerance: float = 0.01, block: int = 2) -> Verdict:
-    """Images as (runs, height, width, 3). The mean of each channel may be off by the tolerance at the most, where the
-    noise lets one say so, and no block of pixels by more than chance allows once in 10^4 comparisons."""
-    means_ours, means_theirs = ours.mean((1, 2)), theirs.mean((1, 2))
-    reference = np.maximum(means_theirs.mean(0), 1e-12)
-    relative = means_ours.mean(0) / reference - 1
-    noise = np.sqrt(means_ours.var(0, ddof=1) / len(ours) + means_theirs.var(0, ddof=1) / len(theirs)) / reference
-    z = z_scores(in_blocks(ours, block), in_blocks(theirs, block)).ravel()
-    # Channels share their paths: as many tests count as there are blocks.
+def judge(tessera: np.ndarray, mitsuba: np.ndarray, tolerance: float = 0.01, block: int = 2) -> Verdict:
+    """Compares images of shape (runs, height, width, 3).
+
+    They agree if the mean of each channel differs by less than `tolerance`, or four standard errors if that is more.
+    Also, the largest |z| of the blocks must be below the limit that chance exceeds once in 10^4 comparisons, and the
+    mean of z^2 below 1 plus six standard deviations.
+    """
+    tessera_means, mitsuba_means = tessera.mean((1, 2)), mitsuba.mean((1, 2))
+    reference = np.maximum(mitsuba_means.mean(0), 1e-12)
+    relative = tessera_means.mean(0) / reference - 1
+    noise = np.sqrt(tessera_means.var(0, ddof=1) / len(tessera) + mitsuba_means.var(0, ddof=1) / len(mitsuba)) / reference
+    z = z_scores(in_blocks(tessera, block), in_blocks(mitsuba, block)).ravel()
+    # The channels of a block are correlated, as they share paths. They count as one test.
     tests = len(z) / 3
     limit = -NormalDist().inv_cdf(0.5e-4 / len(z))
     mean_square = float(np.mean(z * z))
@@ -53,7 +57,7 @@ def judge(ours: np.ndarray, theirs: np.ndarray, tolerance: float = 0.01, block: 
 
 
 def in_blocks(images: np.ndarray, block: int) -> np.ndarray:
-    """Means over blocks of pixels; what is left over at the right and at the bottom is dropped."""
+    """Returns the means over blocks of pixels, without incomplete blocks at the right and at the bottom."""
     runs, height, width, channels = images.shape
     rows, columns = height // block, width // block
     cut = images[:, : rows * block, : columns * block]
