@@ -1,5 +1,5 @@
-// Images smaller than tiles and patterns, to a single pixel, against the naive judge: sampling sets that are cut
-// off on all sides, and pixels without neighbours.
+// Z-tests against the naive path tracer for images smaller than tiles and patterns: sampling sets that are cut off
+// on all sides, and pixels without neighbours.
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
 
@@ -34,11 +34,11 @@ TestScene scene_named(std::string_view name) {
 
 class SmallImage : public testing::TestWithParam<Case> {};
 
-TEST_P(SmallImage, AllMethods) {
+TEST_P(SmallImage, AllMethodsAreUnbiased) {
     const TestScene t = scene_named(GetParam().scene);
     const glm::ivec2 size = GetParam().size;
     const NaiveMeasured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 3);
-    const int passes = 512 / (size.x * size.y) + 16; // about as many paths for all sizes
+    const int passes = 512 / (size.x * size.y) + 16; // similar numbers of paths for all sizes
     for (const Method method : all_methods)
         for (const int tile : {1, 6, 16})
             for (const Pattern pattern : {Pattern::tile, Pattern::rooks}) {
