@@ -158,7 +158,8 @@ TEST(BlockNets, MoveTheGridOfBlocksWhenNetsBegin) {
     EXPECT_GT(corners.size(), 3u);
 }
 
-/// The first digit of a choice alternates over columns, and that of the numbers for the chosen item over rows.
+/// The first digit of a choice alternates over columns. The first digit of numbers for the chosen item alternates
+/// over rows.
 TEST(BlockNets, ExchangeRowsAndColumnsForChoices) {
     const auto scene = floor();
     constexpr glm::ivec2 large(3 * block_edge);

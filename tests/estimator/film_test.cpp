@@ -234,8 +234,8 @@ TEST(Film, VariancesStayFinite) {
     EXPECT_EQ(film.means(2).primal_variance(0, 0), std::numeric_limits<float>::max());
 }
 
-/// The first samples are those of the earliest pass, then row, then column, each once. Neither the order of
-/// samples nor their distribution over counters changes the result.
+/// Samples are sorted by pass, row and column, and each counts once. Neither their order nor their distribution
+/// over counters changes the result.
 TEST(Counters, KeepTheFirstInvalidSamplesInAnyOrder) {
     const RefusedSample in_order[] = {{1, 2, 9}, {1, 3, 0}, {1, 3, 1}, {2, 0, 0}};
     std::size_t order[] = {0, 1, 2, 3};

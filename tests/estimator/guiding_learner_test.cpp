@@ -88,7 +88,7 @@ TEST(GuidingLearner, ChoosesTheBestShareOfEachCell) {
     EXPECT_EQ(guiding->at(few, up)->share, 0.5f);
 }
 
-/// Guiding pays for light from above, and does not for uniform light, of which the second scene has more.
+/// Guiding pays for light from above, and does not pay for uniform light. The second scene has more uniform light.
 TEST(GuidingLearner, AutoDrawsOnlyIfItPaysInTheWholeScene) {
     const glm::vec3 pays(0), costs(9, 0, 3), bright(0, 0, 3);
     for (const int uniform_samples : {1, 60}) {

@@ -24,7 +24,7 @@ namespace {
 
 using Move = std::function<std::optional<glm::dvec3>(glm::vec3)>;
 
-/// Returns the solid angle of moved(d) over that of d, by finite differences; empty if a direction next to d
+/// Returns the ratio of solid angles of moved(d) and d, by finite differences; empty if a direction next to d
 /// cannot be moved.
 std::optional<double> measured_jacobian(glm::vec3 d, const Move& moved) {
     const Frame around(d);
@@ -231,7 +231,7 @@ TEST(Jacobian, OfLightSamplesEqualsFiniteDifferences) {
 }
 
 /// In the space of random numbers replay is the identity. With shift threshold 1 no vertex is connectable, so the
-/// ratio of every light path is 1, and its value is that of the offset's own replay.
+/// ratio of every light path is 1, and its value equals the value of the offset's own replay.
 TEST(Jacobian, OfReplayCancelsTheRatioOfDensities) {
     Room r;
     r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.3f));

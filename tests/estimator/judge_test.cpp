@@ -105,9 +105,9 @@ std::vector<Variant> all_variants() {
     };
 }
 
-/// Raises standard errors to at least those of as many independent camera positions. Stratified positions find the
-/// same fraction of an edge in nearly all runs, and rarely another one. The variance between runs misses the rare
-/// ones.
+/// Raises standard errors to at least the standard error of as many independent camera positions. Stratified
+/// positions find the same fraction of an edge in nearly all runs, so the variance between runs misses the rare
+/// others.
 /// @param positions  camera positions a pass, summed over all runs
 /// @param where      1: in these pixels; null: in all
 Measured with_least_standard_error(Measured m, const Measured& truth, int positions,

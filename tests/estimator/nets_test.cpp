@@ -225,7 +225,7 @@ TEST(Nets, ReduceTheNoiseOfMeansOverPixels) {
         mean_error += squared_difference(means(a), means(b));
     }
     // Means of independent pixels would have a 16th of the variance, and there are a 16th as many. The squares are
-    // not aligned with those of the nets.
+    // not aligned with the blocks of the nets.
     EXPECT_LT(mean_error, 0.75 * pixel_error / (16 * 16));
 }
 

@@ -181,7 +181,7 @@ struct PartTest {
     ZResult z;
 };
 
-/// Returns z-tests of all components by `runs` renders, with seeds from that of the settings on.
+/// Returns z-tests of all components by `runs` renders, with consecutive seeds from `settings.seed` on.
 std::vector<PartTest> tests_of(const TestScene& t, RenderSettings settings, glm::ivec2 size, int runs,
                                const std::vector<Measured>& truth) {
     constexpr int passes = 16;

@@ -85,7 +85,7 @@ TEST(DirectionMap, SamplesFollowTheSharesAndReturnTheirPdf) {
 }
 
 /// The estimate of the BSDF's integral is the same for every share, and all functions that return a pdf return
-/// that of the sampling.
+/// the pdf of the sampling.
 TEST(GuidedVertex, SamplesFollowTheirPdfWithAnyShare) {
     const auto diffuse = shared(DiffuseMaterial{Texture(Rgb(0.7f))}), mirror = shared(copper(0));
     const Bsdf bsdfs[] = {resolved(DiffuseMaterial{Texture(Rgb(0.7f))}), resolved(copper(0.3f)),

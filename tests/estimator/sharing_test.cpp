@@ -108,7 +108,7 @@ private:
             light.reset(*set[k], settings_);
             for (int slot = light.first_shared(); slot < light.slot_count(); ++slot)
                 if (light.is_alive(slot) && luminance(light.carried(slot)) > 1e-20f)
-                    judge(set, k, slot, light.carried(slot));
+                    test_light_path(set, k, slot, light.carried(slot));
         }
     }
 
@@ -121,7 +121,7 @@ private:
         return radiance;
     }
 
-    void judge(const Set& set, std::size_t k, int slot, Rgb carried) {
+    void test_light_path(const Set& set, std::size_t k, int slot, Rgb carried) {
         const BasePath one = isolated(*set[k], settings_, slot);
         const std::vector<Rgb> from_k = share(set, k, one);
         double weights = luminance(from_k[k]) / double(luminance(carried));
@@ -180,7 +180,8 @@ class ReuseWeights : public testing::TestWithParam<TestScene> {
 protected:
     /// The tolerances allow for rounding: of the lengths of short edges in corners, of directions in narrow lobes,
     /// and of rays at the borders of triangles.
-    static void judge(ShiftSettings s, int roulette_depth, TextureFilter filter = TextureFilter::off) {
+    static void expect_consistent_reuse(ShiftSettings s, int roulette_depth,
+                                        TextureFilter filter = TextureFilter::off) {
         s.shift_threshold = GetParam().shift_threshold;
         SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
                      std::to_string(s.shift_distance));
@@ -199,9 +200,9 @@ protected:
 TEST_P(ReuseWeights, AreIndependentOfTheBasePixel) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
-        judge({kind, 0, 0}, 0);
-        judge({kind, 0, GetParam().shift_distance}, 2);
-        judge({kind, 0, GetParam().shift_distance}, 0, TextureFilter::path);
+        expect_consistent_reuse({kind, 0, 0}, 0);
+        expect_consistent_reuse({kind, 0, GetParam().shift_distance}, 2);
+        expect_consistent_reuse({kind, 0, GetParam().shift_distance}, 0, TextureFilter::path);
     }
 }
 

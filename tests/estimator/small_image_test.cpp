@@ -55,14 +55,15 @@ TEST_P(SmallImage, AllMethodsAreUnbiased) {
                 const MethodMeasured m = measure(t.scene, size, s, runs, passes);
                 const std::string name = std::string(short_name(method)) + " tile " + std::to_string(tile) +
                                          (pattern == Pattern::rooks ? " rooks " : " ");
-                const auto judge = [&](const char* what, const Measured& measured, const Measured& expected) {
+                const auto test_image = [&](const char* image, const Measured& measured,
+                                            const Measured& expected) {
                     const ZResult z = z_test(measured, expected);
-                    EXPECT_TRUE(z.passes()) << name << what << ": " << z.to_string();
+                    EXPECT_TRUE(z.passes()) << name << image << ": " << z.to_string();
                 };
-                judge("primal", m.primal, truth.light);
+                test_image("primal", m.primal, truth.light);
                 if (has_gradients(method)) {
-                    judge("dx", m.dx, difference_x(truth.coefficient));
-                    judge("dy", m.dy, difference_y(truth.coefficient));
+                    test_image("dx", m.dx, difference_x(truth.coefficient));
+                    test_image("dy", m.dy, difference_y(truth.coefficient));
                 }
             }
 }
