@@ -64,7 +64,7 @@ TEST(Brightness, PixelsThatSeeNothingStayBlack) {
             render.pass(pool);
         const GradientImages images = render.images();
         for (const Norm norm : {Norm::none, Norm::smoothed, Norm::weighted, Norm::guided}) {
-            if (expands(norm) && !images.has_gradients())
+            if (reconstructs_components(norm) && !images.has_gradients())
                 continue;
             const RgbImage picture = reconstruct(images, {.norm = norm}).image;
             int pixels_without_surface = 0;

@@ -33,8 +33,8 @@ TEST(Film, RejectsInvalidSamples) {
                 (sample.*member)[channel] = invalid;
                 film.add(1, 0, 4, sample, counters);
                 EXPECT_EQ(counters.refused_samples, 1u);
-                ASSERT_EQ(counters.first_refused.list().size(), 1u);
-                EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{4, 0, 1}));
+                ASSERT_EQ(counters.first_invalid.list().size(), 1u);
+                EXPECT_EQ(counters.first_invalid.list()[0], (InvalidSample{4, 0, 1}));
                 const GradientImages images = film.means(1);
                 const Demodulation& d = images.demodulation;
                 for (const RgbImage* image :
@@ -171,7 +171,7 @@ TEST(Film, RejectsInvalidFeatureAlbedos) {
         EXPECT_EQ(film.features().count(0, 0), 2);
         EXPECT_EQ(film.means(1).demodulation.albedo(0, 0), Rgb(0.25f));
         ASSERT_EQ(counters.refused_samples, 1u);
-        EXPECT_EQ(counters.first_refused.list()[0], (RefusedSample{3, 0, 0}));
+        EXPECT_EQ(counters.first_invalid.list()[0], (InvalidSample{3, 0, 0}));
     }
 }
 
@@ -237,7 +237,7 @@ TEST(Film, VariancesStayFinite) {
 /// Samples are sorted by pass, row and column, and each counts once. Neither their order nor their distribution
 /// over counters changes the result.
 TEST(Counters, KeepTheFirstInvalidSamplesInAnyOrder) {
-    const RefusedSample in_order[] = {{1, 2, 9}, {1, 3, 0}, {1, 3, 1}, {2, 0, 0}};
+    const InvalidSample in_order[] = {{1, 2, 9}, {1, 3, 0}, {1, 3, 1}, {2, 0, 0}};
     std::size_t order[] = {0, 1, 2, 3};
     do {
         Counters one, sums[2];
@@ -253,28 +253,28 @@ TEST(Counters, KeepTheFirstInvalidSamplesInAnyOrder) {
         all.refuse(in_order[3]);
         for (const Counters& c : {one, all}) {
             EXPECT_EQ(c.refused_samples, 5u);
-            EXPECT_TRUE(std::ranges::equal(c.first_refused.list(), in_order));
+            EXPECT_TRUE(std::ranges::equal(c.first_invalid.list(), in_order));
         }
     } while (std::next_permutation(std::begin(order), std::end(order)));
 }
 
 TEST(Counters, KeepOnlyTheFirstInvalidSamples) {
     Counters counters;
-    constexpr int count = 3 * FirstRefused::most;
+    constexpr int count = 3 * FirstInvalid::most;
     for (int i = 0; i < count; ++i)
         counters.refuse({0, 0, 7 * i % count}); // 7 and 48 have no common factor, so each occurs once
     EXPECT_EQ(counters.refused_samples, static_cast<std::uint64_t>(count));
-    ASSERT_EQ(counters.first_refused.list().size(), FirstRefused::most);
-    for (std::size_t i = 0; i < FirstRefused::most; ++i)
-        EXPECT_EQ(counters.first_refused.list()[i].x, static_cast<int>(i));
+    ASSERT_EQ(counters.first_invalid.list().size(), FirstInvalid::most);
+    for (std::size_t i = 0; i < FirstInvalid::most; ++i)
+        EXPECT_EQ(counters.first_invalid.list()[i].x, static_cast<int>(i));
 }
 
 TEST(Counters, NameThePlaceOfTheFirstInvalidSample) {
     Counters counters;
-    EXPECT_EQ(refused_text(counters, 3), "");
+    EXPECT_EQ(invalid_text(counters, 3), "");
     counters.refuse({5, 2, 7});
     counters.refuse({6, 2, 7});
-    const std::string text = refused_text(counters, 1234);
+    const std::string text = invalid_text(counters, 1234);
     for (const char* part : {"2 samples", "pass 5", "pixel (7, 2)", "seed 1234"})
         EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
 }

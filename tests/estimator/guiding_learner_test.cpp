@@ -104,8 +104,8 @@ TEST(GuidingLearner, AutoDrawsOnlyIfItPaysInTheWholeScene) {
         learner.learn(found);
         const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::where_it_pays);
         ASSERT_TRUE(guiding && guiding->known_at(pays, up)) << "samples continue to estimate shares";
-        EXPECT_LT(guiding->left_of_squares(), uniform_samples == 1 ? 0.3 : 0.98);
-        EXPECT_GT(guiding->left_of_squares(), uniform_samples == 1 ? 0.05 : 0.9);
+        EXPECT_LT(guiding->remaining_second_moment(), uniform_samples == 1 ? 0.3 : 0.98);
+        EXPECT_GT(guiding->remaining_second_moment(), uniform_samples == 1 ? 0.05 : 0.9);
         EXPECT_EQ(guiding->draws(), uniform_samples == 1);
         EXPECT_TRUE(learner.make_guiding(Guiding::on)->draws());
         EXPECT_EQ(guiding->at(pays, up) != nullptr, uniform_samples == 1);
@@ -136,13 +136,14 @@ TEST(GuidingLearner, EstimatesWithTheGuideThatDrewThePaths) {
         return learner.make_guiding(Guiding::on);
     };
     const auto first = pass(nullptr, From::above, 1);
-    const double left = first->left_of_squares();
+    const double left = first->remaining_second_moment();
     ASSERT_TRUE(first->at(here, up));
     EXPECT_EQ(first->at(here, up)->share, 0.75f);
     const auto second = pass(first->at(here, up), From::above, 100);
     ASSERT_TRUE(second->at(here, up));
     EXPECT_EQ(second->at(here, up)->share, 0.75f);
-    EXPECT_NEAR(second->left_of_squares(), left, 0.3 * left) << "the guide is as good as in the first pass";
+    EXPECT_NEAR(second->remaining_second_moment(), left, 0.3 * left)
+        << "the guide is as good as in the first pass";
     const auto third = pass(second->at(here, up), From::everywhere, 1e3f);
     EXPECT_EQ(third->at(here, up), nullptr) << "light comes from everywhere: guiding does not pay";
     const auto fourth = pass(third->at(here, up), From::above, 1e5f);

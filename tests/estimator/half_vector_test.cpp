@@ -103,7 +103,7 @@ TEST(HalfVector, IsCopiedThroughThinSheets) {
         EXPECT_EQ(copy_there_and_back(sheet, rough_glass(1.5f), side).transmitted, 0);
         EXPECT_EQ(copy_there_and_back(rough_glass(1.5f), sheet, side).transmitted, 0);
     }
-    const Bsdf layer{FurtherKinds{MediumLayer{Rgb(0.8f), Rgb(1), 0.5f, true}}};
+    const Bsdf layer{UncommonBsdf{MediumLayer{Rgb(0.8f), Rgb(1), 0.5f, true}}};
     EXPECT_GT(copy_there_and_back(layer, sheet, 1).transmitted, 50);
     // A blend of glass and sheet also transmits to directions that glass alone cannot.
     const Bsdf both = resolved(blend(shared(glass(0.4f)), shared(thin_principled(0, 2)), 0.5f));

@@ -67,7 +67,7 @@ std::vector<NamedBsdf> glossy_bsdfs() {
     list.push_back({"brushed glass", {RoughDielectric{brushed, 1.5f}}, true});
     list.push_back({"principled metal", resolved(principled(1, 0))});
     list.push_back({"principled glass", resolved(principled(0, 0.8f)), true});
-    list.push_back({"ward", {FurtherKinds{Ward(WardVariant::balanced, {0.1f, 0.3f}, Rgb(0), Rgb(0.7f))}}});
+    list.push_back({"ward", {UncommonBsdf{Ward(WardVariant::balanced, {0.1f, 0.3f}, Rgb(0), Rgb(0.7f))}}});
     list.push_back({"water", {RoughDielectric{{ggx, 0.3f}, 1.33f}}, true});
     list.push_back({"plastic", {Plastic(coating(), {beckmann, 0.2f}, Rgb(1), Rgb(0.4f), false)}});
     list.push_back({"phong", {Phong(20, Rgb(0.2f), Rgb(0.5f))}});

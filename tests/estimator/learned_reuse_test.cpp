@@ -35,7 +35,7 @@ constexpr PixelRect left{2, 2, 8, 8}, right{50, 2, 56, 8}, between{12, 2, 18, 8}
 TEST(LearnedReuse, TilesAreWholeAtFirst) {
     for (const Method method : {Method::pr, Method::gpr}) {
         EXPECT_EQ(LearnedReuse(size, settings_of(method)).split_edge(left), 6);
-        EXPECT_EQ(LearnedReuse(size, settings_of(method)).paths_alone(left), 0);
+        EXPECT_EQ(LearnedReuse(size, settings_of(method)).paths_without_reuse(left), 0);
     }
 }
 
@@ -66,58 +66,59 @@ LearnedReuse after_pilot(const CellStatistics& upper_left, double offset_rays = 
 // With 0.5 rays an offset, a 6x6 tile has 65 offsets a pixel, and reuse costs 1.7 + 0.55 * 65 / 16 = 3.9 samples.
 
 TEST(LearnedReuse, NoReuseWhereItCostsMoreThanItGains) {
-    EXPECT_EQ(after_pilot(statistics_of(0.50, 0.5)).paths_alone(left), 0);
-    EXPECT_EQ(after_pilot(statistics_of(0.52, 0.5)).paths_alone(left), 4);
-    EXPECT_EQ(after_pilot(statistics_of(0.70, 0.01)).paths_alone(left), 0);
-    EXPECT_EQ(after_pilot(statistics_of(0.80, 0.01)).paths_alone(left), 4);
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5)).paths_alone(right), 0);
+    EXPECT_EQ(after_pilot(statistics_of(0.50, 0.5)).paths_without_reuse(left), 0);
+    EXPECT_EQ(after_pilot(statistics_of(0.52, 0.5)).paths_without_reuse(left), 4);
+    EXPECT_EQ(after_pilot(statistics_of(0.70, 0.01)).paths_without_reuse(left), 0);
+    EXPECT_EQ(after_pilot(statistics_of(0.80, 0.01)).paths_without_reuse(left), 4);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5)).paths_without_reuse(right), 0);
 }
 
 TEST(LearnedReuse, OneOutlierSetDoesNotSwitchReuseOff) {
     constexpr int sets = 8;
     const auto with_outliers = [](double outlier_noise, int outliers) {
         CellStatistics e = statistics_of(0, 0.5);
-        e.shared_noise = e.own_noise = 0;
+        e.reuse_noise = e.own_noise = 0;
         for (int i = 0; i < sets; ++i)
             e.add_gradient_noise(i < outliers ? outlier_noise : 0.1, i < outliers ? outlier_noise : 1);
         return e;
     };
-    EXPECT_EQ(after_pilot(with_outliers(20, 1)).paths_alone(left), 0); // rho 0.45; plain sums would give 0.77
-    EXPECT_EQ(after_pilot(with_outliers(20, 2)).paths_alone(left), 4); // rho 0.64
+    EXPECT_EQ(after_pilot(with_outliers(20, 1)).paths_without_reuse(left),
+              0); // rho 0.45; plain sums would give 0.77
+    EXPECT_EQ(after_pilot(with_outliers(20, 2)).paths_without_reuse(left), 4); // rho 0.64
 }
 
 TEST(LearnedReuse, IgnoresSetsWithoutNoiseOfTheirOwn) {
     CellStatistics e = statistics_of(0.1, 0.5);
-    const double shared = e.shared_noise, own = e.own_noise;
+    const double shared = e.reuse_noise, own = e.own_noise;
     e.add_gradient_noise(1, 0);
-    EXPECT_EQ(e.shared_noise, shared);
+    EXPECT_EQ(e.reuse_noise, shared);
     EXPECT_EQ(e.own_noise, own);
 }
 
 TEST(LearnedReuse, PathsWithoutReuseMatchTheCostOfReuseElsewhere) {
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5), 0).paths_alone(left), 2);
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5), 1).paths_alone(left), 6);
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5), 4).paths_alone(left), 12);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5), 0).paths_without_reuse(left), 2);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5), 1).paths_without_reuse(left), 6);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5), 4).paths_without_reuse(left), 12);
 }
 
 /// The rho of a cell with two lit paths may be chance. If all cells have that rho, it is not. One cell with a huge
 /// rho does not decide for the others.
 TEST(LearnedReuse, CellWithFewLitPathsFollowsTheOthers) {
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5, 2)).paths_alone(left), 0);
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5, 20)).paths_alone(left), 4);
-    EXPECT_EQ(after_pilot(statistics_of(1, 0.5, 0)).paths_alone(left), 0);
-    EXPECT_EQ(after_pilot(statistics_of(1e6, 0.5)).paths_alone(right), 0);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5, 2)).paths_without_reuse(left), 0);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5, 20)).paths_without_reuse(left), 4);
+    EXPECT_EQ(after_pilot(statistics_of(1, 0.5, 0)).paths_without_reuse(left), 0);
+    EXPECT_EQ(after_pilot(statistics_of(1e6, 0.5)).paths_without_reuse(right), 0);
     LearnedReuse learned(size, settings_of());
     learned.learn(
         std::vector<CellStatistics>(static_cast<std::size_t>(learned.cell_count()), statistics_of(1, 0.5, 2)));
-    EXPECT_GT(learned.paths_alone(left), 0);
+    EXPECT_GT(learned.paths_without_reuse(left), 0);
 }
 
 TEST(LearnedReuse, PilotDecidesForTheWholeRender) {
     LearnedReuse learned = after_pilot(statistics_of(1, 0.5));
     for (int pass = 0; pass < 10; ++pass)
         learned.learn(luminance(1000, 1000));
-    EXPECT_EQ(learned.paths_alone(left), 4);
+    EXPECT_EQ(learned.paths_without_reuse(left), 4);
     EXPECT_EQ(learned.split_edge(left), 6);
 }
 
@@ -125,7 +126,7 @@ TEST(LearnedReuse, DarkCellsReusePaths) {
     CellStatistics dark;
     dark.paths = 100;
     dark.base_rays = 800;
-    EXPECT_EQ(after_pilot(dark).paths_alone(left), 0);
+    EXPECT_EQ(after_pilot(dark).paths_without_reuse(left), 0);
 }
 
 TEST(LearnedReuse, OnlyGprWantsAPilot) {
@@ -149,8 +150,8 @@ TEST(LearnedReuse, CutsTilesAlongTheBorderOfReuse) {
     EXPECT_EQ(pieces_of(learned, {12, 13, 18, 19}),
               (std::vector<PixelRect>{{12, 13, 16, 16}, {16, 13, 18, 16}, {12, 16, 16, 19}, {16, 16, 18, 19}}));
     EXPECT_EQ(pieces_of(learned, {-3, 12, 3, 18}), (std::vector<PixelRect>{{-3, 12, 3, 16}, {-3, 16, 3, 18}}));
-    EXPECT_EQ(learned.paths_alone({12, 2, 16, 8}), 4);
-    EXPECT_EQ(learned.paths_alone({16, 2, 18, 8}), 0);
+    EXPECT_EQ(learned.paths_without_reuse({12, 2, 16, 8}), 4);
+    EXPECT_EQ(learned.paths_without_reuse({16, 2, 18, 8}), 0);
     EXPECT_EQ(pieces_of(after_pilot(statistics_of(0, 0.5)), between),
               std::vector{between}); // all pixels reuse paths
 }

@@ -40,18 +40,18 @@ double integral_over_sphere(const std::function<double(glm::vec3)>& value) {
 
 TEST(Parts, FunctionsAreOrthogonalWithEqualNorms) {
     for (const Basis basis : expanding) {
-        const int parts = part_count(basis);
+        const int components = component_count(basis);
         const auto at = [&](glm::vec3 d, int l) {
-            float values[most_parts];
+            float values[max_components];
             evaluate_basis(basis, d, values);
             return static_cast<double>(values[l]);
         };
         const double square = integral_over_sphere([&](glm::vec3 d) { return at(d, 0) * at(d, 0); });
-        float uniform[most_parts];
+        float uniform[max_components];
         project_evenly(basis, uniform);
         // project_evenly() is for g = 1 / (4 pi): its projections are the integrals divided by this scale.
         const double scale = std::sqrt(4 * static_cast<double>(pi) * square);
-        for (int l = 0; l < parts; ++l) {
+        for (int l = 0; l < components; ++l) {
             EXPECT_NEAR(integral_over_sphere([&](glm::vec3 d) { return at(d, l); }),
                         scale * static_cast<double>(uniform[l]), 1e-3);
             for (int k = 0; k <= l; ++k)
@@ -69,10 +69,10 @@ TEST(Parts, ProjectionOfADiffuseSurfaceHasALengthOfAboutOne) {
             x.frame = Frame(normal);
             x.to_previous = glm::normalize(glm::vec3(0.3f, 0.2f, 0.8f));
             x.bsdf.kind = Diffuse{Rgb(0.7f, 0.4f, 0.1f)};
-            float s[most_parts] = {};
+            float s[max_components] = {};
             project(x, basis, 4000, s);
             double squares = 0;
-            for (int l = 0; l < part_count(basis); ++l)
+            for (int l = 0; l < component_count(basis); ++l)
                 squares += static_cast<double>(s[l] * s[l]);
             EXPECT_NEAR(squares, 1, basis == Basis::box ? 0.35 : basis == Basis::sh1 ? 0.13 : 0.01);
         }
@@ -86,14 +86,14 @@ TEST(Parts, FunctionsTimesProjectionsApproximateTheBsdf) {
         x.frame = Frame(glm::normalize(glm::vec3(1, -2, 0.5f)));
         x.to_previous = glm::normalize(glm::vec3(0.3f, 0.2f, 0.8f));
         x.bsdf.kind = Diffuse{Rgb(0.7f)};
-        float s[most_parts] = {};
+        float s[max_components] = {};
         project(x, basis, 4000, s);
         const auto g = [&](glm::vec3 d) { return std::max(glm::dot(d, x.frame.normal), 0.0f) * inv_pi; };
         const double residual = integral_over_sphere([&](glm::vec3 d) {
-            float values[most_parts];
+            float values[max_components];
             evaluate_basis(basis, d, values);
             double sum = -g(d);
-            for (int l = 0; l < part_count(basis); ++l)
+            for (int l = 0; l < component_count(basis); ++l)
                 sum += static_cast<double>(s[l] * values[l]);
             return sum * sum;
         });
@@ -175,26 +175,26 @@ private:
 };
 
 /// A z-test of one component.
-struct PartTest {
-    std::size_t part;
+struct ComponentTest {
+    std::size_t component;
     const char* image;
     ZResult z;
 };
 
 /// Returns z-tests of all components by `runs` renders, with consecutive seeds from `settings.seed` on.
-std::vector<PartTest> tests_of(const TestScene& t, RenderSettings settings, glm::ivec2 size, int runs,
-                               const std::vector<Measured>& truth) {
+std::vector<ComponentTest> tests_of(const TestScene& t, RenderSettings settings, glm::ivec2 size, int runs,
+                                    const std::vector<Measured>& truth) {
     constexpr int passes = 16;
     std::vector<PartMoments> primal(truth.size(), PartMoments(size)), dx(primal), dy(primal);
     for (int run = 0; run < runs; ++run, ++settings.seed) {
         const GradientImages images = images_of(t, settings, size, passes);
         for (std::size_t l = 0; l < primal.size(); ++l) {
-            primal[l].add(images.parts[l].primal);
-            dx[l].add(images.parts[l].dx);
-            dy[l].add(images.parts[l].dy);
+            primal[l].add(images.components[l].primal);
+            dx[l].add(images.components[l].dx);
+            dy[l].add(images.components[l].dy);
         }
     }
-    std::vector<PartTest> tests;
+    std::vector<ComponentTest> tests;
     for (std::size_t l = 0; l < primal.size(); ++l) {
         tests.push_back({l, "primal", z_test(primal[l].measured(), truth[l])});
         tests.push_back({l, "dx", z_test(dx[l].measured(), difference_x(truth[l]))});
@@ -209,10 +209,10 @@ void expect_naive_components(const std::string& scene, int runs, int samples) {
     const TestScene& t = scene_named(scene);
     for (const Variant& v : variants) {
         RenderSettings settings = settings_of(v, t);
-        const int parts = part_count(v.basis);
-        const std::vector<BasisComponent> components = images_of(t, settings, size, 1).parts;
-        const PartsOf parts_of = [&](glm::ivec2 p, Rgb albedo, std::span<const ByDirection> light,
-                                     std::span<Rgb> result) {
+        const int components = component_count(v.basis);
+        const std::vector<BasisComponent> components = images_of(t, settings, size, 1).components;
+        const ComponentsOf components_of = [&](glm::ivec2 p, Rgb albedo, std::span<const ByDirection> light,
+                                               std::span<Rgb> result) {
             ArrivingLight arriving;
             arriving.reset(v.basis, {&albedo, 1});
             Rgb all(0);
@@ -221,19 +221,19 @@ void expect_naive_components(const std::string& scene, int runs, int samples) {
                     arriving.add(0, one.direction, one.f_cos, one.carried);
                 all += one.carried;
             }
-            float projection[most_parts];
-            for (int l = 0; l < parts; ++l)
+            float projection[max_components];
+            for (int l = 0; l < components; ++l)
                 projection[l] = components[static_cast<std::size_t>(l)].projection(p.x, p.y);
             arriving.expand(0, all / albedo, projection, result.data());
         };
-        const std::vector<Measured> truth =
-            render_naive_parts(*t.scene, size, t.max_depth, samples * t.effort, 11, parts, parts_of);
+        const std::vector<Measured> truth = render_naive_components(
+            *t.scene, size, t.max_depth, samples * t.effort, 11, components, components_of);
         const auto tests_of_runs = [&](std::uint64_t seed, int count) {
             settings.seed = seed;
             return tests_of(t, settings, size, count, truth);
         };
-        for (const PartTest& test : tests_by_enough_runs(400, runs * t.effort, tests_of_runs))
-            EXPECT_TRUE(test.z.passes()) << scene << ' ' << v.name << " component " << test.part << ' '
+        for (const ComponentTest& test : tests_by_enough_runs(400, runs * t.effort, tests_of_runs))
+            EXPECT_TRUE(test.z.passes()) << scene << ' ' << v.name << " component " << test.component << ' '
                                          << test.image << ": " << test.z.to_string();
     }
 }
@@ -260,8 +260,8 @@ TEST(Parts, ProjectionsOfDiffusePixelsHaveALengthOfAboutOne) {
     const GradientImages images = images_of(t, settings_of(variants[1], t), {9, 7}, 1);
     for (std::size_t i = 0; i < images.primal.size(); ++i) {
         double squares = 0;
-        for (const BasisComponent& part : images.parts)
-            squares += static_cast<double>(part.projection.data()[i] * part.projection.data()[i]);
+        for (const BasisComponent& component : images.components)
+            squares += static_cast<double>(component.projection.data()[i] * component.projection.data()[i]);
         EXPECT_GT(squares, 0.06); // a pixel that sees black at three of four points
         EXPECT_LT(squares, 1.1);
     }
@@ -276,8 +276,8 @@ TEST(Parts, SumTimesProjectionsIsTheCoefficient) {
             double largest = 0, difference = 0;
             for (std::size_t i = 0; i < images.primal.size(); ++i) {
                 Rgb sum(0);
-                for (const BasisComponent& part : images.parts)
-                    sum += part.projection.data()[i] * part.primal.data()[i];
+                for (const BasisComponent& component : images.components)
+                    sum += component.projection.data()[i] * component.primal.data()[i];
                 largest = std::max(largest, static_cast<double>(glm::length(images.primal.data()[i])));
                 difference = std::max(difference, static_cast<double>(glm::length(sum - images.primal.data()[i])));
             }

@@ -94,7 +94,7 @@ TEST(GuidedVertex, SamplesFollowTheirPdfWithAnyShare) {
     const DirectionMap map(uneven_shares());
     for (const Bsdf& bsdf : bsdfs) {
         double unguided = 0;
-        for (const float share : tried_shares) {
+        for (const float share : share_candidates) {
             const DirectionGuide guide{map, share};
             Vertex x;
             x.frame = Frame(glm::normalize(glm::vec3(0.3f, 0.5f, 0.8f)));
@@ -169,15 +169,15 @@ TEST(GuidedVertex, DeltaScattersContinueAsOftenAsUnguided) {
         EXPECT_NEAR(survival, std::min(without.front() / (1 - share), 0.95f), 1e-5);
 }
 
-TEST(TriedShares, CountDeltaScattersByTheirProbability) {
+TEST(ShareCandidates, CountDeltaScattersByTheirProbability) {
     const float chance = 0.4f, used = 0.5f;
-    const TriedShares squares = squares_by_share(3, (1 - used) * chance, 0, used);
+    const ShareCandidates squares = second_moments(3, (1 - used) * chance, 0, used);
     // With another share t the value is 3 (1 - used) / (1 - t), and the probability changes by the inverse factor.
-    for (std::size_t s = 0; s < tried_shares.size(); ++s)
-        EXPECT_NEAR(squares[s], 9 * (1 - used) / (1 - tried_shares[s]), 1e-4) << tried_shares[s];
+    for (std::size_t s = 0; s < share_candidates.size(); ++s)
+        EXPECT_NEAR(squares[s], 9 * (1 - used) / (1 - share_candidates[s]), 1e-4) << share_candidates[s];
 }
 
-TEST(TriedShares, EstimateSecondMomentsOfOtherShares) {
+TEST(ShareCandidates, EstimateSecondMomentsOfOtherShares) {
     const DirectionMap map(uneven_shares());
     const auto pdf_with = [&](float share, glm::vec3 d) { return (1 - share) / (4 * pi) + share * map.pdf_w(d); };
     const auto integrand = [](glm::vec3 d) { return 0.2f + std::max(d.z, 0.0f) * std::max(d.x, 0.0f); };
@@ -189,22 +189,23 @@ TEST(TriedShares, EstimateSecondMomentsOfOtherShares) {
     };
     constexpr int samples = 200000;
     for (const float used : {0.0f, 0.5f, 0.75f}) {
-        std::array<double, tried_shares.size()> estimates{};
+        std::array<double, share_candidates.size()> estimates{};
         for (int i = 0; i < samples; ++i) {
             const glm::vec3 d = drawn_with(used, i);
             const float pdf_w = pdf_with(used, d);
-            const TriedShares squares = squares_by_share(integrand(d) / pdf_w, pdf_w, map.pdf_w(d), used);
+            const ShareCandidates squares = second_moments(integrand(d) / pdf_w, pdf_w, map.pdf_w(d), used);
             for (std::size_t s = 0; s < squares.size(); ++s)
                 estimates[s] += static_cast<double>(squares[s]) / samples;
         }
-        for (std::size_t s = 0; s < tried_shares.size(); ++s) {
+        for (std::size_t s = 0; s < share_candidates.size(); ++s) {
             double moment = 0;
             for (int i = 0; i < samples; ++i) {
-                const glm::vec3 d = drawn_with(tried_shares[s], samples + i);
-                moment += std::pow(static_cast<double>(integrand(d) / pdf_with(tried_shares[s], d)), 2) / samples;
+                const glm::vec3 d = drawn_with(share_candidates[s], samples + i);
+                moment +=
+                    std::pow(static_cast<double>(integrand(d) / pdf_with(share_candidates[s], d)), 2) / samples;
             }
             EXPECT_NEAR(estimates[s] / moment, 1, 0.05)
-                << "share " << tried_shares[s] << " from samples with share " << used;
+                << "share " << share_candidates[s] << " from samples with share " << used;
         }
     }
 }

@@ -41,12 +41,12 @@ TEST(Pilot, WeightsSetsByTheRootOfTheirNoise) {
     const auto scene = corner(1);
     const CellStatistics whole = explore(*scene, {0, 0, 16, 16}), left = explore(*scene, {0, 0, 8, 16}),
                          right = explore(*scene, {8, 0, 16, 16}), brighter = explore(*corner(4), {0, 0, 16, 16});
-    EXPECT_GT(whole.own_noise, whole.shared_noise);
-    EXPECT_GT(whole.shared_noise, 0);
+    EXPECT_GT(whole.own_noise, whole.reuse_noise);
+    EXPECT_GT(whole.reuse_noise, 0);
     EXPECT_NEAR(whole.own_noise, left.own_noise + right.own_noise, 1e-9 * whole.own_noise);
-    EXPECT_NEAR(whole.shared_noise, left.shared_noise + right.shared_noise, 1e-9 * whole.shared_noise);
+    EXPECT_NEAR(whole.reuse_noise, left.reuse_noise + right.reuse_noise, 1e-9 * whole.reuse_noise);
     EXPECT_NEAR(brighter.own_noise, 2 * whole.own_noise, 1e-6 * whole.own_noise);
-    EXPECT_NEAR(brighter.shared_noise, 2 * whole.shared_noise, 1e-6 * whole.shared_noise);
+    EXPECT_NEAR(brighter.reuse_noise, 2 * whole.reuse_noise, 1e-6 * whole.reuse_noise);
 }
 
 } // namespace tessera::test

@@ -35,10 +35,10 @@ struct Tally {
     int astray = 0;  ///< the shift there and back ends at other vertices
 };
 
-class Sharing {
+class WorkDivision {
 public:
-    Sharing(const TestScene& t, ShiftSettings settings, int roulette_depth, TextureFilter filter,
-            bool unfiltered_first = false)
+    WorkDivision(const TestScene& t, ShiftSettings settings, int roulette_depth, TextureFilter filter,
+                 bool unfiltered_first = false)
         : scene_(*t.scene), settings_(settings), tracer_{scene_,
                                                          counters_,
                                                          {t.max_depth, roulette_depth, filter},
@@ -185,7 +185,7 @@ protected:
         s.shift_threshold = GetParam().shift_threshold;
         SCOPED_TRACE("shift kind " + std::to_string(static_cast<int>(s.shift)) + ", distance " +
                      std::to_string(s.shift_distance));
-        const Tally t = Sharing(GetParam(), s, roulette_depth, filter).run(40);
+        const Tally t = WorkDivision(GetParam(), s, roulette_depth, filter).run(40);
         EXPECT_EQ(t.lost, 0);
         EXPECT_LE(t.unequal, 0.04 * t.shared);
         EXPECT_LE(t.wrong, 0.001 * t.shared);
@@ -212,7 +212,7 @@ TEST_P(ReuseWeights, AreEqualWithAndWithoutTheCacheOfASet) {
     for (const ShiftKind kind :
          {ShiftKind::half_vector, ShiftKind::reconnection, ShiftKind::replay, ShiftKind::replay_reconnection}) {
         const ShiftSettings s{kind, GetParam().shift_threshold, GetParam().shift_distance};
-        Sharing sharing(GetParam(), s, 0, TextureFilter::path);
+        WorkDivision sharing(GetParam(), s, 0, TextureFilter::path);
         const auto cached = sharing.share_sets(40, false), uncached = sharing.share_sets(40, true);
         EXPECT_TRUE(cached.radiance == uncached.radiance) << static_cast<int>(kind);
         EXPECT_LE(cached.rays, uncached.rays);
@@ -249,7 +249,7 @@ TEST(ReuseWeightsInMirrors, AreIndependentOfTheBasePixelWithAnyFilter) {
     for (const ShiftKind kind : {ShiftKind::half_vector, ShiftKind::replay, ShiftKind::replay_reconnection})
         for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path})
             for (const bool unfiltered_first : {false, true}) {
-                const Tally t = Sharing(scene, {kind, 0.001f, 0}, 0, filter, unfiltered_first).run(60);
+                const Tally t = WorkDivision(scene, {kind, 0.001f, 0}, 0, filter, unfiltered_first).run(60);
                 EXPECT_GT(t.shared, 200);
                 EXPECT_EQ(t.lost, 0);
                 EXPECT_LE(t.unequal, 0.04 * t.shared)

@@ -98,7 +98,7 @@ void for_each_image(GradientImages& images, Visit&& visit) {
           &d.value_covariance, &b.primal, &b.dx, &b.dy, &b.albedo, &h.primal, &h.dx, &h.dy, &g.albedo, &g.normal})
         visit(*image);
     for (Image<float>* image :
-         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_share,
+         {&images.primal_variance, &images.dx_variance, &images.dy_variance, &d.albedo_variance, &d.sampled_weight,
           &d.unexplained_variance, &b.half, &g.nearness, &g.roughness})
         visit(*image);
 }

@@ -223,10 +223,10 @@ TEST(Fireflies, NeedOtherSamplesAndNoBasis) {
     images.brightest.samples = 1;
     EXPECT_FALSE(can_clamp(images));
     images.brightest.samples = 16;
-    images.parts.emplace_back();
+    images.components.emplace_back();
     EXPECT_FALSE(can_clamp(images));
     EXPECT_EQ(largest(clamped_radiance(images)), 0);
-    images.parts.clear();
+    images.components.clear();
     images.brightest = {};
     EXPECT_FALSE(can_clamp(images));
 }

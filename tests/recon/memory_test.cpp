@@ -23,16 +23,20 @@ TEST(ReconstructionMemory, IsAboutThePredicted) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers have their own allocators";
 #endif
-    for (const auto& [width, parts] : {std::pair{480, 0}, {499, 0}, {480, 4}}) { // a width of 499 is padded to 500
+    for (const auto& [width, components] :
+         {std::pair{480, 0}, {499, 0}, {480, 4}}) { // a width of 499 is padded to 500
         GradientImages images = noisy_images(width, 200);
         images.patch = 3;
-        if (parts == 0)
+        if (components == 0)
             add_fireflies(images, 8);
-        for (int l = 0; l < parts; ++l)
-            images.parts.push_back({Image<float>(width, 200, 0.5f), images.primal, images.dx, images.dy,
-                                    images.primal_variance, images.dx_variance, images.dy_variance});
-        const ReconstructionSize size{
-            .width = width, .height = 200, .has_gradients = true, .is_demodulated = false, .parts = parts};
+        for (int l = 0; l < components; ++l)
+            images.components.push_back({Image<float>(width, 200, 0.5f), images.primal, images.dx, images.dy,
+                                         images.primal_variance, images.dx_variance, images.dy_variance});
+        const ReconstructionSize size{.width = width,
+                                      .height = 200,
+                                      .has_gradients = true,
+                                      .is_demodulated = false,
+                                      .components = components};
         for (const Norm norm : all_norms) {
             if (norm == Norm::oidn)
                 continue; // needs a library that may be missing
@@ -47,9 +51,9 @@ TEST(ReconstructionMemory, IsAboutThePredicted) {
             };
             const Reconstruction result = reconstructor.reconstruct(images, {norm, 0.2f}, watched);
             const double taken = static_cast<double>(std::max(peak, bytes_in_use()) - before);
-            EXPECT_GT(predicted, 0.95 * taken) << to_string(norm) << " " << width << " " << parts;
+            EXPECT_GT(predicted, 0.95 * taken) << to_string(norm) << " " << width << " " << components;
             const double image = static_cast<double>(sizeof(Rgb)) * width * 200;
-            if (parts == 0) { // the prediction includes fireflies, which are not clamped with components
+            if (components == 0) { // the prediction includes fireflies, which are not clamped with components
                 EXPECT_LT(predicted, 1.4 * taken + 1.1 * image) << to_string(norm) << " " << width;
             }
             // The prediction excludes solvers that exist already.
@@ -63,7 +67,7 @@ TEST(ReconstructionMemory, IsAboutThePredicted) {
             const std::size_t after_second = bytes_in_use();
             reconstructor.reconstruct(images, {norm, 0.2f}, watched);
             const double taken_more = static_cast<double>(std::max(peak, bytes_in_use()) - before_second);
-            EXPECT_GT(again + kept, 0.95 * taken_more) << to_string(norm) << " " << width << " " << parts;
+            EXPECT_GT(again + kept, 0.95 * taken_more) << to_string(norm) << " " << width << " " << components;
             EXPECT_NEAR(static_cast<double>(after_second - before_second),
                         static_cast<double>(reconstructor.bytes_kept()),
                         20.0 * width * 200) // the picture and a few vectors

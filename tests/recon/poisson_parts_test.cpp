@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-constexpr int width = 45, height = 34, parts = 3;
+constexpr int width = 45, height = 34, components = 3;
 constexpr float alpha = 0.2f;
 
 /// Samples and their exact sum: smooth components with uneven projections, as under a normal map.
@@ -31,26 +31,26 @@ void add(RgbImage& image, const RgbImage& noise, float scale) {
 }
 
 /// Returns such a truth. All images have noise, except the projections.
-/// @param part_noise  of the gradients of components
-Truth uneven_images(float primal_noise, float part_noise, unsigned seed = 1) {
+/// @param component_noise  of the gradients of components
+Truth uneven_images(float primal_noise, float component_noise, unsigned seed = 1) {
     Truth t{{}, RgbImage(width, height)};
-    for (int l = 0; l < parts; ++l) {
-        BasisComponent part{Image<float>(width, height), RgbImage(width, height), {}, {}};
+    for (int l = 0; l < components; ++l) {
+        BasisComponent component{Image<float>(width, height), RgbImage(width, height), {}, {}};
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const auto u = static_cast<float>(x) / width, v = static_cast<float>(y) / height;
                 const auto phase = static_cast<float>((7 * x + 3 * y) % 5 + l);
-                part.projection(x, y) = 0.58f * std::cos(phase);
-                part.primal(x, y) = Rgb(1 + 0.3f * static_cast<float>(l) + u, 2 - v, 1 + u * v);
-                t.whole(x, y) += part.projection(x, y) * part.primal(x, y);
+                component.projection(x, y) = 0.58f * std::cos(phase);
+                component.primal(x, y) = Rgb(1 + 0.3f * static_cast<float>(l) + u, 2 - v, 1 + u * v);
+                t.whole(x, y) += component.projection(x, y) * component.primal(x, y);
             }
-        part.dx = x_differences(part.primal);
-        part.dy = y_differences(part.primal);
+        component.dx = x_differences(component.primal);
+        component.dy = y_differences(component.primal);
         const auto number = static_cast<std::uint32_t>(10 * seed + static_cast<unsigned>(l));
-        add(part.dx, random_image(width, height, number), part_noise);
-        add(part.dy, random_image(width, height, number + 100), part_noise);
-        add(part.primal, random_image(width, height, number + 200), primal_noise);
-        t.images.parts.push_back(std::move(part));
+        add(component.dx, random_image(width, height, number), component_noise);
+        add(component.dy, random_image(width, height, number + 100), component_noise);
+        add(component.primal, random_image(width, height, number + 200), primal_noise);
+        t.images.components.push_back(std::move(component));
     }
     t.images.primal = t.whole;
     add(t.images.primal, random_image(width, height, seed + 300), primal_noise);
@@ -61,13 +61,13 @@ Truth uneven_images(float primal_noise, float part_noise, unsigned seed = 1) {
     return t;
 }
 
-void set_variances(GradientImages& images, float primal_noise, float part_noise) {
+void set_variances(GradientImages& images, float primal_noise, float component_noise) {
     const Image<float> large(width, height, 3 * primal_noise * primal_noise),
-        small(width, height, 3 * part_noise * part_noise);
+        small(width, height, 3 * component_noise * component_noise);
     images.primal_variance = images.dx_variance = images.dy_variance = large;
-    for (BasisComponent& part : images.parts) {
-        part.primal_variance = large;
-        part.dx_variance = part.dy_variance = small;
+    for (BasisComponent& component : images.components) {
+        component.primal_variance = large;
+        component.dx_variance = component.dy_variance = small;
     }
 }
 
@@ -89,7 +89,7 @@ double mean_square_difference(const RgbImage& a, const RgbImage& b) {
 
 TEST(PoissonParts, OneComponentIsThePlainProblem) {
     GradientImages images = noisy_images(width, height);
-    images.parts.push_back({Image<float>(width, height, 1), images.primal, images.dx, images.dy});
+    images.components.push_back({Image<float>(width, height, 1), images.primal, images.dx, images.dy});
     PoissonSolver plain(width, height);
     RgbImage expected;
     plain.solve(PoissonProblem{images.primal, images.dx, images.dy, alpha}, expected);
@@ -107,7 +107,7 @@ TEST(PoissonParts, SmoothComponentsReduceTheNoiseOfAnUnevenWhole) {
     Truth t = uneven_images(0.3f, 0.01f);
     set_variances(t.images, 0.3f, 0.01f);
     GradientImages plain = t.images;
-    plain.parts.clear();
+    plain.components.clear();
     for (const Norm norm : {Norm::l2, Norm::mixed, Norm::weighted}) {
         const ReconstructionSettings settings{.norm = norm, .alpha = alpha};
         EXPECT_LT(mean_square_difference(reconstruct(t.images, settings).image, t.whole),
@@ -122,10 +122,10 @@ TEST(PoissonParts, L2IsLinear) {
     GradientImages sum = a.images;
     const auto add_to = [](RgbImage& to, const RgbImage& from) { add(to, from, 1); };
     add_to(sum.primal, b.images.primal);
-    for (std::size_t l = 0; l < parts; ++l) {
-        add_to(sum.parts[l].primal, b.images.parts[l].primal);
-        add_to(sum.parts[l].dx, b.images.parts[l].dx);
-        add_to(sum.parts[l].dy, b.images.parts[l].dy);
+    for (std::size_t l = 0; l < components; ++l) {
+        add_to(sum.components[l].primal, b.images.components[l].primal);
+        add_to(sum.components[l].dx, b.images.components[l].dx);
+        add_to(sum.components[l].dy, b.images.components[l].dy);
     }
     RgbImage expected = solve(a.images, Norm::l2);
     add_to(expected, solve(b.images, Norm::l2));
@@ -135,8 +135,8 @@ TEST(PoissonParts, L2IsLinear) {
 TEST(PoissonParts, OutliersOfGradientsVanishInL1AndMixed) {
     Truth t = uneven_images(0.05f, 0.01f);
     for (int i = 0; i < 20; ++i)
-        t.images.parts[static_cast<std::size_t>(i % parts)].dx((37 * i) % (width - 1), (11 * i) % height) +=
-            Rgb(30);
+        t.images.components[static_cast<std::size_t>(i % components)].dx((37 * i) % (width - 1),
+                                                                         (11 * i) % height) += Rgb(30);
     const double l2 = mean_square_difference(solve(t.images, Norm::l2), t.whole);
     EXPECT_LT(mean_square_difference(solve(t.images, Norm::mixed), t.whole), 0.05 * l2);
     EXPECT_LT(mean_square_difference(solve(t.images, Norm::l1), t.whole), 0.05 * l2);
@@ -163,7 +163,7 @@ TEST(PoissonParts, StopsBetweenSteps) {
 
 TEST(PoissonParts, OverflowGivesNoNaN) {
     Truth t = uneven_images(0.1f, 0.1f);
-    t.images.parts[0].dx(5, 5) = Rgb(1e30f);
+    t.images.components[0].dx(5, 5) = Rgb(1e30f);
     for (const Rgb& pixel : solve(t.images, Norm::l2))
         ASSERT_TRUE(is_finite(pixel));
 }

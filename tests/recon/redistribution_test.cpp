@@ -27,14 +27,14 @@ RgbImage redistributed(const RgbImage& energy, RgbImage picture, const FeatureIm
 /// Returns parameters with which pixels may get any energy from pixels with similar features.
 GuidedParameters without_limit() {
     GuidedParameters parameters;
-    parameters.most_added = 1e6f;
+    parameters.largest_addition = 1e6f;
     return parameters;
 }
 
 /// Returns parameters with which all energy goes to the pixels around, whatever their features.
 GuidedParameters around_only() {
     GuidedParameters parameters;
-    parameters.most_added = 0;
+    parameters.largest_addition = 0;
     return parameters;
 }
 

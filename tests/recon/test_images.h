@@ -223,7 +223,7 @@ inline Image<float> local_brightness_of(const RgbImage& picture, const FeatureIm
                                         const ParallelFor& parallel_for = serial_for) {
     Image<float> light(picture.width(), picture.height());
     for (std::size_t i = 0; i < light.size(); ++i)
-        light.data()[i] = brightness_of(picture.data()[i] / seen_albedo(features, i, parameters.least_albedo));
+        light.data()[i] = brightness_of(picture.data()[i] / feature_albedo(features, i, parameters.least_albedo));
     return local_mean_brightness(std::move(light), parameters.local_radius, parallel_for);
 }
 

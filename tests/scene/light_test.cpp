@@ -118,7 +118,7 @@ TEST(LightTable, ChoosesByPowerAndLeavesOutBlackTriangles) {
 /// Returns the probability of each light, in the order of LightTable::powers().
 std::vector<double> probabilities_of(const Scene& scene) {
     const std::vector<double>& power = scene.lights().powers();
-    const std::vector<double> factors = learn_light_factors(scene);
+    const std::vector<double> factors = learn_light_selection(scene);
     std::vector<double> probabilities(power.size());
     std::transform(power.begin(), power.end(), factors.begin(), probabilities.begin(), std::multiplies<>());
     const double sum = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
@@ -147,7 +147,7 @@ TEST(LightChoice, SamplesSpotsUnderAStrongSky) {
     EXPECT_GT(probabilities[0], 0.3);
     EXPECT_GT(probabilities[1], 0.3);
     EXPECT_GT(probabilities[2], 0.1) << "it may light places that the learning paths missed";
-    EXPECT_EQ(learn_light_factors(*scene), learn_light_factors(*spots_under_the_sky()));
+    EXPECT_EQ(learn_light_selection(*scene), learn_light_selection(*spots_under_the_sky()));
 }
 
 TEST(LightChoice, HiddenLampGetsFewSamples) {
@@ -177,7 +177,7 @@ TEST(LightChoice, FactorsDoNotChangeTheMean) {
         }
         return sum / count;
     };
-    const double by_power = estimate({}), learned = estimate(learn_light_factors(*scene));
+    const double by_power = estimate({}), learned = estimate(learn_light_selection(*scene));
     EXPECT_NEAR(learned / by_power, 1, 0.02);
     EXPECT_NEAR(estimate({3, 40, 0.2, 1, 5, 0.5}) / by_power, 1, 0.02);
 }

@@ -77,7 +77,7 @@ TEST(SceneChecksums, CoverAllThatAPictureShows) {
               "materials");
     EXPECT_EQ(difference_after([](S& s) {
                   Material& wall = s.materials[static_cast<std::size_t>(s.shapes[2].material)];
-                  std::get<MixtureMaterial>(wall.kind).second_share = Texture(Rgb(0.31f));
+                  std::get<MixtureMaterial>(wall.kind).blend_weight = Texture(Rgb(0.31f));
               }),
               "materials");
     EXPECT_EQ(difference_after([](S& s) {

@@ -61,7 +61,7 @@ TEST(Sky, BrightnessIsWithinAThirdOfHosekAndWilkie) {
                  {3, 45, 0.2304f},     {3, 70, 0.2494f},     {4, 5, 0.0983f},  {4, 24.63f, 0.2248f},
                  {4, 45, 0.2802f},     {6, 24.63f, 0.2766f}, {6, 45, 0.3671f}, {6, 70, 0.3972f}};
     for (const auto& c : cases) {
-        const float ratio = hosek_level * luminance(irradiance(sky_of(c.turbidity, c.elevation))) / c.irradiance;
+        const float ratio = hosek_scale * luminance(irradiance(sky_of(c.turbidity, c.elevation))) / c.irradiance;
         EXPECT_GT(ratio, 0.75f) << "turbidity " << c.turbidity << ", elevation " << c.elevation;
         EXPECT_LT(ratio, 1.33f) << "turbidity " << c.turbidity << ", elevation " << c.elevation;
     }

@@ -146,8 +146,8 @@ NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, i
                 const glm::vec2 lens = scene.camera().aperture_radius > 0 ? walk.point_in_disk() : glm::vec2(0);
                 const Ray ray = scene.camera().ray(glm::vec2(x, y) + inside, size, lens);
                 const auto values = walk.radiance(ray, max_depth);
-                for (std::size_t part = 0; part < moments.size(); ++part)
-                    moments[part].add(values[part]);
+                for (std::size_t component = 0; component < moments.size(); ++component)
+                    moments[component].add(values[component]);
             }
             moments[0].measure(samples, x, y, result.very_direct);
             moments[1].measure(samples, x, y, result.light);
@@ -156,18 +156,19 @@ NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, i
     return result;
 }
 
-std::vector<Measured> render_naive_parts(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
-                                         std::uint32_t seed, int parts, const PartsOf& parts_of) {
+std::vector<Measured> render_naive_components(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
+                                              std::uint32_t seed, int components,
+                                              const ComponentsOf& components_of) {
     Walk walk(scene, seed);
-    std::vector<Measured> result(static_cast<std::size_t>(parts),
+    std::vector<Measured> result(static_cast<std::size_t>(components),
                                  {RgbImage(size.x, size.y), RgbImage(size.x, size.y)});
-    std::vector<Rgb> values(static_cast<std::size_t>(parts));
+    std::vector<Rgb> values(static_cast<std::size_t>(components));
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
-            std::vector<Moments> moments(static_cast<std::size_t>(parts));
+            std::vector<Moments> moments(static_cast<std::size_t>(components));
             for (int i = 0; i < samples; ++i) {
                 walk.radiance(scene.camera().ray(glm::vec2(x, y) + walk.uniform_2d(), size), max_depth);
-                parts_of({x, y}, walk.albedo, walk.by_direction, values);
+                components_of({x, y}, walk.albedo, walk.by_direction, values);
                 for (std::size_t l = 0; l < values.size(); ++l)
                     moments[l].add(values[l]);
             }

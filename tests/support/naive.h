@@ -38,11 +38,12 @@ struct ByDirection {
     Rgb carried{0};               ///< radiance toward the camera
 };
 /// Computes the basis components of one sample of a pixel.
-using PartsOf =
-    std::function<void(glm::ivec2 pixel, Rgb albedo, std::span<const ByDirection> light, std::span<Rgb> parts)>;
+using ComponentsOf = std::function<void(glm::ivec2 pixel, Rgb albedo, std::span<const ByDirection> light,
+                                        std::span<Rgb> components)>;
 
 /// Renders the means of such components with the same path tracer. The camera has no lens.
-std::vector<Measured> render_naive_parts(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
-                                         std::uint32_t seed, int parts, const PartsOf& parts_of);
+std::vector<Measured> render_naive_components(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
+                                              std::uint32_t seed, int components,
+                                              const ComponentsOf& components_of);
 
 } // namespace tessera::test

@@ -26,7 +26,7 @@ public:
     int rough_diffuse(Rgb reflectance, float alpha);
     int rough_glass(float alpha, float eta = 1.5f);
     int phong(Rgb diffuse, Rgb specular, float exponent);
-    int blend(int first, int second, float second_share);
+    int blend(int first, int second, float blend_weight);
     int coated(int base, Rgb sigma_a, float eta = 1.5f);
     int light(Texture radiance);
     void point(PointLight light);

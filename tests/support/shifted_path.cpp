@@ -70,7 +70,7 @@ private:
         path_.keep();
         BaseVertex& y = path_[path_.size() - 1];
         y.hit_pdf_w = 0;
-        y.hit_brings = y.arriving = Rgb(0);
+        y.hit_contribution = y.arriving = Rgb(0);
     }
 
     bool step(int i) {
@@ -150,7 +150,7 @@ private:
 
     static void set_hit(BaseVertex& y, Rgb radiance, float pdf_w) {
         y.hit_pdf_w = y.is_delta || is_black(radiance) ? 0 : pdf_w;
-        y.hit_brings = radiance * (y.pdf_w / (y.pdf_w + y.hit_pdf_w));
+        y.hit_contribution = radiance * (y.pdf_w / (y.pdf_w + y.hit_pdf_w));
     }
 
     /// Ends the light path by emitter sampling at the last vertex. Returns whether that is possible.
@@ -225,7 +225,7 @@ BasePath isolated(const BasePath& path, const ShiftSettings& settings, int slot)
         if (end.is_tail || end.is_hit || i != end.vertex)
             one.light(i).brings = Rgb(0);
         if (!end.is_hit || i != end.vertex)
-            one[i].hit_brings = Rgb(0);
+            one[i].hit_contribution = Rgb(0);
         if (!end.is_tail)
             one[i].arriving = Rgb(0);
     }

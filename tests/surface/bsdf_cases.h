@@ -93,9 +93,9 @@ inline DielectricMaterial glass(float alpha, float eta = 1.5f) {
 }
 
 inline MixtureMaterial blend(std::shared_ptr<const Material> a, std::shared_ptr<const Material> b,
-                             float second_share) {
+                             float blend_weight) {
     MixtureMaterial m{{std::move(a), std::move(b)}};
-    m.second_share = Texture(Rgb(second_share));
+    m.blend_weight = Texture(Rgb(blend_weight));
     return m;
 }
 

@@ -89,7 +89,7 @@ TEST(ThinDielectric, SumsTheBouncesBetweenItsFaces) {
 TEST(MediumLayer, EqualsAWalkWithOneCollision) {
     Uniform uniform(9);
     const float depth = 0.7f, albedo = 0.8f;
-    const Bsdf bsdf{FurtherKinds{MediumLayer{Rgb(albedo), Rgb(depth), 0, true}}};
+    const Bsdf bsdf{UncommonBsdf{MediumLayer{Rgb(albedo), Rgb(depth), 0, true}}};
     for (const float theta : {0.3f, 1.3f}) {
         const glm::vec3 view = direction(theta, 0.4f);
         double walked[2] = {0, 0}, evaluated[2] = {0, 0};
@@ -109,7 +109,7 @@ TEST(MediumLayer, EqualsAWalkWithOneCollision) {
 }
 
 TEST(DiffuseTransmitter, IsALambertianOnTheOtherSide) {
-    const Bsdf bsdf{FurtherKinds{DiffuseTransmitter{Rgb(0.6f)}}};
+    const Bsdf bsdf{UncommonBsdf{DiffuseTransmitter{Rgb(0.6f)}}};
     for (const glm::vec3 view : {direction(0.4f, 1), direction(2.5f, 1)}) {
         EXPECT_EQ(bsdf.evaluate(view, view).pdf_w, 0);
         EXPECT_FLOAT_EQ(bsdf.evaluate(view, -view).f_cos.r, 0.6f * std::abs(view.z) / pi);
