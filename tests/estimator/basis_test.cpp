@@ -1,5 +1,5 @@
-// Pictures of the light over the albedo: unbiased by l2 however few samples there are, and as bright as they
-// should be by the others.
+// Reconstructions of the coefficient (radiance over albedo): `l2` is unbiased at few samples, and the default
+// keeps the mean radiance.
 #include "recon/picture/reconstruct.h"
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
@@ -24,15 +24,15 @@ const TestScene& scene_named(const std::string& name) {
     return *std::ranges::find(scenes, name, &TestScene::name);
 }
 
-/// Twenty thousand renders of two passes: what is right on average for many samples alone is found out. Albedo and
-/// light change together within these pixels, and the covariance is a tenth of the picture and more.
+/// Two passes are too few for estimators that are only consistent. In these scenes albedo and radiance are
+/// correlated within pixels, so the covariance of METHODS (28) matters.
 TEST(Basis, IsUnbiasedInTheMeanOfManyRendersOfTwoPasses) {
     constexpr glm::ivec2 size(4, 4);
     constexpr int renders = 20'000;
     for (const char* name : {"texture_edges", "black_texels"}) {
         const TestScene& t = scene_named(name);
         const NaiveMeasured truth = render_naive(*t.scene, size, 3, 500'000, 7);
-        const double share_of_covariance = [&] {
+        const double covariance_fraction = [&] {
             RenderSettings s;
             s.max_depth = 3;
             Render render(t.scene, t.scene->camera(), size, s);
@@ -49,7 +49,7 @@ TEST(Basis, IsUnbiasedInTheMeanOfManyRendersOfTwoPasses) {
             }
             return covariance / value;
         }();
-        EXPECT_GT(share_of_covariance, 0.03) << name; // or the test would find nothing
+        EXPECT_GT(covariance_fraction, 0.03) << name << " has too little covariance to test";
         for (const Method method : {Method::gpt, Method::gpr}) {
             RenderSettings s;
             s.method = method;
@@ -71,8 +71,8 @@ double mean_luminance(const RgbImage& image) {
     return sum / static_cast<double>(image.size());
 }
 
-/// What the covariance term brings is held back while it does not stand out from noise: that is little light. The
-/// mean of the samples knows how bright the picture is.
+/// The factor k of METHODS (47) removes a part of the covariance at few samples. The mean of the samples shows
+/// that this changes the brightness of the picture by little.
 TEST(Basis, KeepsTheEnergyWithTwoPasses) {
     for (const char* name : {"edges", "leaves"}) {
         const std::string file = std::string(TESSERA_SOURCE_DIR) + "/assets/stability/" + name + ".xml";

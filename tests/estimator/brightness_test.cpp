@@ -1,5 +1,5 @@
-// What reconstructions do to light. L2 redistributes it and keeps its sum: gradients alone cannot change it, as
-// borders are Neumann's. None comes to pixels that see nothing.
+// Energy of reconstructions: `l2` keeps the mean, because the gradients have Neumann boundary conditions, and
+// pixels that see nothing stay black.
 #include "recon/picture/reconstruct.h"
 #include "render/run/render.h"
 #include "render/scene/scene.h"
@@ -47,14 +47,14 @@ TEST(Brightness, L2KeepsTheMeanOfThePrimal) {
     }
 }
 
-TEST(Brightness, NothingGlowsBeforeNothing) {
-    SceneBuilder things;
-    const int white = things.diffuse(Rgb(0.7f));
-    things.sphere({-0.4f, 0, 0}, 0.4f, white);
-    things.sphere({0.5f, 0.1f, 0}, 0.3f, things.conductor(0.1f));
-    things.quad({-0.1f, 0.9f, -0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}, white, things.light(Rgb(30)));
-    things.camera({0, 0, 4}, {0, 0, 0}, 40);
-    const auto scene = things.build();
+TEST(Brightness, PixelsThatSeeNothingStayBlack) {
+    SceneBuilder builder;
+    const int white = builder.diffuse(Rgb(0.7f));
+    builder.sphere({-0.4f, 0, 0}, 0.4f, white);
+    builder.sphere({0.5f, 0.1f, 0}, 0.3f, builder.conductor(0.1f));
+    builder.quad({-0.1f, 0.9f, -0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}, white, builder.light(Rgb(30)));
+    builder.camera({0, 0, 4}, {0, 0, 0}, 40);
+    const auto scene = builder.build();
     ThreadPool pool(2);
     for (const Method method : {Method::pt, Method::pr, Method::gpt, Method::gpr}) {
         RenderSettings settings;
@@ -67,13 +67,13 @@ TEST(Brightness, NothingGlowsBeforeNothing) {
             if (reconstructs_components(norm) && !images.has_gradients())
                 continue;
             const RgbImage picture = reconstruct(images, {.norm = norm}).image;
-            int nothing = 0;
+            int pixels_without_surface = 0;
             for (std::size_t i = 0; i < picture.size(); ++i)
                 if (images.features.nearness.data()[i] == 0 && is_black(images.radiance().data()[i])) {
-                    ++nothing;
+                    ++pixels_without_surface;
                     EXPECT_EQ(picture.data()[i], images.very_direct.data()[i]) << short_name(method);
                 }
-            EXPECT_GT(nothing, 1000);
+            EXPECT_GT(pixels_without_surface, 1000);
         }
     }
 }

@@ -1,5 +1,5 @@
-// Parts of the light by where it comes from, as Lossless Basis Expansion has them: that they are what they are
-// said to be, whoever shares the light, and that nothing is lost.
+// Components of a basis [Fang 2024]: they equal those of the naive path tracer for all methods and shifts, and
+// their sum loses nothing, METHODS (30) and (31).
 #include "recon/picture/reconstruct.h"
 #include "render/estimator/basis.h"
 #include "render/run/render.h"
@@ -25,7 +25,7 @@ namespace {
 
 constexpr Basis expanding[] = {Basis::sh1, Basis::sh2, Basis::sh3, Basis::box};
 
-/// The integral of `value` over the sphere, by equal steps of z and azimuth.
+/// Returns the integral of `value` over the sphere, by equal steps of z and azimuth.
 double integral_over_sphere(const std::function<double(glm::vec3)>& value) {
     constexpr int steps = 600;
     double sum = 0;
@@ -38,7 +38,7 @@ double integral_over_sphere(const std::function<double(glm::vec3)>& value) {
     return sum * 4 * static_cast<double>(pi) / (steps * steps);
 }
 
-TEST(Parts, FunctionsAreOrthogonalAndOfOneLength) {
+TEST(Parts, FunctionsAreOrthogonalWithEqualNorms) {
     for (const Basis basis : expanding) {
         const int components = component_count(basis);
         const auto at = [&](glm::vec3 d, int l) {
@@ -47,13 +47,13 @@ TEST(Parts, FunctionsAreOrthogonalAndOfOneLength) {
             return static_cast<double>(values[l]);
         };
         const double square = integral_over_sphere([&](glm::vec3 d) { return at(d, 0) * at(d, 0); });
-        float even[max_components];
-        project_evenly(basis, even);
-        // Of g = 1 / (4 pi) the projections are the integrals over this.
-        const double longer = std::sqrt(4 * static_cast<double>(pi) * square);
+        float uniform[max_components];
+        project_evenly(basis, uniform);
+        // project_evenly() is for g = 1 / (4 pi): its projections are the integrals divided by this scale.
+        const double scale = std::sqrt(4 * static_cast<double>(pi) * square);
         for (int l = 0; l < components; ++l) {
             EXPECT_NEAR(integral_over_sphere([&](glm::vec3 d) { return at(d, l); }),
-                        longer * static_cast<double>(even[l]), 1e-3);
+                        scale * static_cast<double>(uniform[l]), 1e-3);
             for (int k = 0; k <= l; ++k)
                 EXPECT_NEAR(integral_over_sphere([&](glm::vec3 d) { return at(d, l) * at(d, k); }),
                             l == k ? square : 0, 1e-3)
@@ -78,9 +78,9 @@ TEST(Parts, ProjectionOfADiffuseSurfaceHasALengthOfAboutOne) {
         }
 }
 
-/// Functions and projections belong together: their sum is g, as far as so few functions can say it, and not a
-/// multiple of it, of which all the rest would be residual.
-TEST(Parts, FunctionsTimesProjectionsAreTheBsdf) {
+/// The sum of functions times projections approximates g itself and not a multiple of it, which would leave a
+/// large residual.
+TEST(Parts, FunctionsTimesProjectionsApproximateTheBsdf) {
     for (const Basis basis : expanding) {
         Vertex x;
         x.frame = Frame(glm::normalize(glm::vec3(1, -2, 0.5f)));
@@ -89,7 +89,7 @@ TEST(Parts, FunctionsTimesProjectionsAreTheBsdf) {
         float s[max_components] = {};
         project(x, basis, 4000, s);
         const auto g = [&](glm::vec3 d) { return std::max(glm::dot(d, x.frame.normal), 0.0f) * inv_pi; };
-        const double missing = integral_over_sphere([&](glm::vec3 d) {
+        const double residual = integral_over_sphere([&](glm::vec3 d) {
             float values[max_components];
             evaluate_basis(basis, d, values);
             double sum = -g(d);
@@ -98,7 +98,7 @@ TEST(Parts, FunctionsTimesProjectionsAreTheBsdf) {
             return sum * sum;
         });
         const double square = integral_over_sphere([&](glm::vec3 d) { return static_cast<double>(g(d) * g(d)); });
-        EXPECT_LT(missing, square * (basis == Basis::box ? 0.35 : basis == Basis::sh1 ? 0.14 : 0.01));
+        EXPECT_LT(residual, square * (basis == Basis::box ? 0.35 : basis == Basis::sh1 ? 0.14 : 0.01));
     }
 }
 
@@ -133,7 +133,7 @@ RenderSettings settings_of(const Variant& v, const TestScene& t) {
     s.max_depth = t.max_depth;
     s.shift_threshold = t.shift_threshold;
     s.shift_distance = t.shift_distance;
-    s.roulette_depth = 0; // paths that it lets live weigh more: these runs are too few for that
+    s.roulette_depth = 0; // the paths that survive it weigh more, which needs more runs
     return s;
 }
 
@@ -145,7 +145,7 @@ GradientImages images_of(const TestScene& t, const RenderSettings& settings, glm
     return render.images();
 }
 
-/// One after the other, what part l is measured to be over many renders.
+/// Mean and standard error of one component over many renders.
 class PartMoments {
 public:
     explicit PartMoments(glm::ivec2 size) : sum_(size.x, size.y, glm::dvec3(0)), squares_(sum_) {}
@@ -174,14 +174,14 @@ private:
     double count_ = 0;
 };
 
-/// A z-test of one part.
+/// A z-test of one component.
 struct ComponentTest {
     std::size_t component;
-    const char* what;
+    const char* image;
     ZResult z;
 };
 
-/// By so many renders, of the seeds from that of the settings on.
+/// Returns z-tests of all components by `runs` renders, with consecutive seeds from `settings.seed` on.
 std::vector<ComponentTest> tests_of(const TestScene& t, RenderSettings settings, glm::ivec2 size, int runs,
                                     const std::vector<Measured>& truth) {
     constexpr int passes = 16;
@@ -203,14 +203,14 @@ std::vector<ComponentTest> tests_of(const TestScene& t, RenderSettings settings,
     return tests;
 }
 
-/// Whoever finds the light and shares it, the parts are those that an innocent path tracer finds, with 'samples'.
-void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) {
+/// Expects the components of all variants to equal those of the naive path tracer with so many samples a pixel.
+void expect_naive_components(const std::string& scene, int runs, int samples) {
     constexpr glm::ivec2 size(6, 5);
     const TestScene& t = scene_named(scene);
     for (const Variant& v : variants) {
         RenderSettings settings = settings_of(v, t);
         const int components = component_count(v.basis);
-        const std::vector<BasisComponent> of_film = images_of(t, settings, size, 1).components;
+        const std::vector<BasisComponent> expanded = images_of(t, settings, size, 1).components;
         const ComponentsOf components_of = [&](glm::ivec2 p, Rgb albedo, std::span<const ByDirection> light,
                                                std::span<Rgb> result) {
             ArrivingLight arriving;
@@ -223,7 +223,7 @@ void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) 
             }
             float projection[max_components];
             for (int l = 0; l < components; ++l)
-                projection[l] = of_film[static_cast<std::size_t>(l)].projection(p.x, p.y);
+                projection[l] = expanded[static_cast<std::size_t>(l)].projection(p.x, p.y);
             arriving.expand(0, all / albedo, projection, result.data());
         };
         const std::vector<Measured> truth = render_naive_components(
@@ -233,28 +233,28 @@ void expect_parts_of_the_judge(const std::string& scene, int runs, int samples) 
             return tests_of(t, settings, size, count, truth);
         };
         for (const ComponentTest& test : tests_by_enough_runs(400, runs * t.effort, tests_of_runs))
-            EXPECT_TRUE(test.z.passes()) << scene << ' ' << v.name << " part " << test.component << ' '
-                                         << test.what << ": " << test.z.to_string();
+            EXPECT_TRUE(test.z.passes()) << scene << ' ' << v.name << " component " << test.component << ' '
+                                         << test.image << ": " << test.z.to_string();
     }
 }
 
 class PartsOfScene : public testing::TestWithParam<std::string> {};
-TEST_P(PartsOfScene, AreThoseOfTheJudge) {
-    expect_parts_of_the_judge(GetParam(), 60, 40'000);
+TEST_P(PartsOfScene, EqualTheNaivePathTracers) {
+    expect_naive_components(GetParam(), 60, 40'000);
 }
 INSTANTIATE_TEST_SUITE_P(scenes, PartsOfScene, testing::Values("texture_edges", "black_texels", "rough_plastic"),
                          [](const auto& p) { return p.param; });
 
-/// Where light seldom comes, standard errors of few runs are too small.
+/// In scenes with rare bright paths, few runs underestimate standard errors.
 class SlowPartsOfScene : public testing::TestWithParam<std::string> {};
-TEST_P(SlowPartsOfScene, AreThoseOfTheJudge) {
-    expect_parts_of_the_judge(GetParam(), 300, 200'000);
+TEST_P(SlowPartsOfScene, EqualTheNaivePathTracers) {
+    expect_naive_components(GetParam(), 300, 200'000);
 }
 INSTANTIATE_TEST_SUITE_P(scenes, SlowPartsOfScene,
                          testing::Values("shining_wall", "translucent", "mirror", "glossy", "brushed"),
                          [](const auto& p) { return p.param; });
 
-/// Those of the film are means over points of a pixel, not sums.
+/// The film's projections are means over points of a pixel, not sums.
 TEST(Parts, ProjectionsOfDiffusePixelsHaveALengthOfAboutOne) {
     const TestScene& t = scene_named("diffuse");
     const GradientImages images = images_of(t, settings_of(variants[1], t), {9, 7}, 1);
@@ -262,13 +262,13 @@ TEST(Parts, ProjectionsOfDiffusePixelsHaveALengthOfAboutOne) {
         double squares = 0;
         for (const BasisComponent& component : images.components)
             squares += static_cast<double>(component.projection.data()[i] * component.projection.data()[i]);
-        EXPECT_GT(squares, 0.06); // of a pixel that sees black at three of four points
+        EXPECT_GT(squares, 0.06); // a pixel that sees black at three of four points
         EXPECT_LT(squares, 1.1);
     }
 }
 
-/// Times their projections, the parts are all of the coefficient, of every sample and so of all means.
-TEST(Parts, NothingIsLost) {
+/// METHODS (31): the sum of components times projections is the coefficient of each sample, and so of the means.
+TEST(Parts, SumTimesProjectionsIsTheCoefficient) {
     constexpr glm::ivec2 size(9, 7);
     for (const TestScene& t : all_test_scenes())
         for (const Variant& v : variants) {

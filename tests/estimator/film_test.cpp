@@ -1,4 +1,4 @@
-// The film: what it refuses, and sums that hold 10^5 passes.
+// The film: rejected samples, means, variances, half differences, and sums of 10^5 passes.
 #include "render/film/film.h"
 
 #include <algorithm>
@@ -22,15 +22,15 @@ bool is_black_everywhere(const RgbImage& image) {
     return true;
 }
 
-TEST(Film, RefusesWhatIsNotFinite) {
-    for (const float bad : {infinity, -infinity, nan})
-        for (Rgb PixelSample::* part : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
-                                        &PixelSample::very_direct, &PixelSample::albedo})
+TEST(Film, RejectsInvalidSamples) {
+    for (const float invalid : {infinity, -infinity, nan})
+        for (Rgb PixelSample::* member : {&PixelSample::primal, &PixelSample::dx, &PixelSample::dy,
+                                          &PixelSample::very_direct, &PixelSample::albedo})
             for (int channel = 0; channel < 3; ++channel) {
                 Film film(3, 2, {.gradients = true, .albedo = true, .reuse = true, .luminance = true});
                 Counters counters;
                 PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
-                (sample.*part)[channel] = bad;
+                (sample.*member)[channel] = invalid;
                 film.add(1, 0, 4, sample, counters);
                 EXPECT_EQ(counters.refused_samples, 1u);
                 ASSERT_EQ(counters.first_invalid.list().size(), 1u);
@@ -43,17 +43,17 @@ TEST(Film, RefusesWhatIsNotFinite) {
                 const ReuseMaps maps = film.reuse_maps(1);
                 for (const Image<float>& map : {maps.reused(), maps.failed(), maps.survival()})
                     EXPECT_EQ(map(1, 0), 0);
-                EXPECT_EQ(film.path_luminance()(1, 0), 1); // so that LearnedReuse depends on base paths alone
+                EXPECT_EQ(film.path_luminance()(1, 0), 1); // LearnedReuse needs it for all base paths
             }
 }
 
-/// By the largest of primal and gradients, of which borders have none.
+/// Brightness is the largest luminance of primal and gradients. Gradients across the image's border do not count.
 TEST(Film, RemembersTheBrightestSample) {
     Film film(2, 1, {.gradients = true, .albedo = true});
     Counters counters;
     film.add(0, 0, 0, {Rgb(1), Rgb(-5), Rgb(0), Rgb(0), Rgb(0.5f)}, counters);
-    film.add(0, 0, 1, {Rgb(4), Rgb(1), Rgb(9), Rgb(0), Rgb(0.25f)}, counters); // there is no pixel below
-    film.add(1, 0, 0, {Rgb(1), Rgb(7), Rgb(0), Rgb(0), Rgb(1)}, counters);     // nor to the right
+    film.add(0, 0, 1, {Rgb(4), Rgb(1), Rgb(9), Rgb(0), Rgb(0.25f)}, counters); // no pixel below
+    film.add(1, 0, 0, {Rgb(1), Rgb(7), Rgb(0), Rgb(0), Rgb(1)}, counters);     // no pixel on the right
     film.add(1, 0, 1, {Rgb(2), Rgb(0), Rgb(0), Rgb(0), Rgb(1)}, counters);
     film.add(1, 0, 2, {Rgb(nan), Rgb(0), Rgb(0), Rgb(0), Rgb(1)}, counters);
     const BrightestSamples b = film.means(2).brightest;
@@ -66,14 +66,14 @@ TEST(Film, RemembersTheBrightestSample) {
     EXPECT_EQ(b.dy(0, 0), Rgb(0));
 }
 
-/// Means of two paths each, of which e and a go against each other: v = m(e a) is far from m(e) m(a).
-PixelSample mean_of_two(float e, float a, float other_e, float other_a) {
-    PixelSample sample{Rgb((e + other_e) / 2), Rgb(0), Rgb(0), Rgb(0), Rgb((a + other_a) / 2)};
-    sample.beside = Rgb((e * a + other_e * other_a) / 2) - sample.primal * sample.albedo;
+/// Returns a sample that is the mean of two paths. If e and a are correlated, v = m(e a) differs from m(e) m(a).
+PixelSample mean_of_two(float e0, float a0, float e1, float a1) {
+    PixelSample sample{Rgb((e0 + e1) / 2), Rgb(0), Rgb(0), Rgb(0), Rgb((a0 + a1) / 2)};
+    sample.beside = Rgb((e0 * a0 + e1 * a1) / 2) - sample.primal * sample.albedo;
     return sample;
 }
 
-TEST(Film, OfAMeanOfPathsTheBrightestHasItsOwnRadiance) {
+TEST(Film, BrightestSampleThatIsAMeanKeepsItsRadiance) {
     Film film(1, 1, {.albedo = true, .means = true});
     Counters counters;
     film.add(0, 0, 0, mean_of_two(1, 0.5f, 1, 0.5f), counters);
@@ -83,7 +83,7 @@ TEST(Film, OfAMeanOfPathsTheBrightestHasItsOwnRadiance) {
     EXPECT_NEAR(images.demodulation.value(0, 0).r, (0.5 + 5) / 2, 1e-4);
 }
 
-TEST(Film, CountsThePathsOfMeans) {
+TEST(Film, CountsTheBasePathsOfMeans) {
     Film film(2, 1, {.means = true});
     Counters counters;
     PixelSample sample{Rgb(1)};
@@ -97,10 +97,10 @@ TEST(Film, CountsThePathsOfMeans) {
     EXPECT_TRUE(Film(2, 1, {}).reuse_maps(2).paths.empty());
 }
 
-/// Half the difference of two halves has their noise and nothing else, as much as the mean, for odd numbers of
-/// passes, too; and the brightest sample is known by its weight in it.
-TEST(Film, HalvesDifferByTheirNoise) {
-    const float values[] = {3, 1, 2, 8, 6}, signs[] = {1, -1, 1, -1, 1}; // 2 and 3, 4 and what follows, ...
+/// Half differences have expectation 0 and the variance of the mean, for odd numbers of passes, too, METHODS (41).
+/// The film keeps the weight that the brightest sample has in them.
+TEST(Film, HalfDifferencesHaveTheNoiseOfTheMean) {
+    const float values[] = {3, 1, 2, 8, 6}, signs[] = {1, -1, 1, -1, 1}; // halves of passes 2-3, 4-7, ...
     for (const int passes : {2, 3, 4, 5}) {
         Film film(1, 1, {});
         Counters counters;
@@ -118,43 +118,42 @@ TEST(Film, HalvesDifferByTheirNoise) {
             expected += weight * static_cast<double>(values[pass]);
             squares += weight * weight;
         }
-        const double scale = 1 / std::sqrt(squares * passes); // to those of a mean
+        const double scale = 1 / std::sqrt(squares * passes); // scales to the variance of the mean
         const GradientImages images = film.means(passes);
         EXPECT_NEAR(images.halves.primal(0, 0).r, scale * expected, 1e-5) << passes;
-        const double brightest = passes > 3 ? signs[3] : signs[0]; // 8, or 3
+        const double brightest = passes > 3 ? signs[3] : signs[0]; // the sample 8, or 3
         EXPECT_NEAR(images.brightest.half(0, 0), scale * (brightest - balance), 1e-6) << passes;
         EXPECT_TRUE(images.halves.dx.empty());
     }
     EXPECT_TRUE(Film(1, 1, {}).means(1).halves.empty());
 }
 
-/// Whatever all passes have alike is in no half more than in the other.
-TEST(Film, HalvesOfEqualSamplesDoNotDiffer) {
-    Film film(2, 2, {.gradients = true}), more(2, 2, {.gradients = true});
+TEST(Film, HalfDifferencesOfEqualSamplesAreZero) {
+    Film film(2, 2, {.gradients = true}), other_film(2, 2, {.gradients = true});
     Counters counters;
     for (int pass = 0; pass < 7; ++pass) {
-        Film& to = pass < 3 ? film : more; // the shares of two renders
+        Film& to = pass < 3 ? film : other_film; // shards of one render
         for (int i = 0; i < 4; ++i)
             to.add(i % 2, i / 2, pass, {Rgb(2), Rgb(0.5f), Rgb(-0.25f)}, counters);
         to.finish(pass);
     }
-    film.add(more);
+    film.add(other_film);
     const HalfDifferences halves = film.means(7).halves;
     for (const RgbImage* image : {&halves.primal, &halves.dx, &halves.dy})
         for (Rgb c : *image)
             EXPECT_NEAR(c.r, 0, 1e-6);
 }
 
-/// What e and a of a mean's paths have to do with each other says nothing of how the means go together: here not
-/// at all, as e is the same for all, and so is what is not explained.
-TEST(Film, WhatIsBesideExplainsNothing) {
-    const auto unexplained = [](bool beside) {
+/// PixelSample::beside comes from the correlation of e and a within one sample. The unexplained variance is that
+/// of the samples' means, and does not depend on it.
+TEST(Film, UnexplainedVarianceIgnoresBeside) {
+    const auto unexplained = [](bool has_beside) {
         Film film(1, 1, {.albedo = true, .means = true});
         Counters counters;
         const float e[] = {1, 2, 2, 1}, a[] = {0.5f, 0.5f, 0.6f, 0.6f};
         for (int i = 0; i < 4; ++i) {
             PixelSample sample = mean_of_two(e[i], a[i], e[i], a[i]);
-            sample.beside = beside ? Rgb(0.05f) : Rgb(0);
+            sample.beside = has_beside ? Rgb(0.05f) : Rgb(0);
             film.add(0, 0, i, sample, counters);
         }
         return film.means(4).demodulation.unexplained_variance(0, 0);
@@ -163,12 +162,12 @@ TEST(Film, WhatIsBesideExplainsNothing) {
     EXPECT_FLOAT_EQ(unexplained(true), unexplained(false));
 }
 
-TEST(Film, RefusesAlbedosThatAreNotFinite) {
-    for (const float bad : {infinity, -infinity, nan}) {
+TEST(Film, RejectsInvalidFeatureAlbedos) {
+    for (const float invalid : {infinity, -infinity, nan}) {
         Film film(2, 1, {.albedo = true});
         Counters counters;
         film.add_feature_sample(0, 0, 3, {Rgb(0.5f), {}}, counters);
-        film.add_feature_sample(0, 0, 3, {Rgb(0.5f, bad, 0.5f), {}}, counters);
+        film.add_feature_sample(0, 0, 3, {Rgb(0.5f, invalid, 0.5f), {}}, counters);
         EXPECT_EQ(film.features().count(0, 0), 2);
         EXPECT_EQ(film.means(1).demodulation.albedo(0, 0), Rgb(0.25f));
         ASSERT_EQ(counters.refused_samples, 1u);
@@ -176,7 +175,7 @@ TEST(Film, RefusesAlbedosThatAreNotFinite) {
     }
 }
 
-/// The settings table tells people what it takes.
+/// The help of the settings table states this number.
 TEST(Film, AlbedosTake168BytesAPixel) {
     EXPECT_EQ(Film::bytes(10, 1, {.albedo = true}) - Film::bytes(10, 1, {}) + 10 * Demodulation::bytes_a_pixel,
               1680u);
@@ -191,7 +190,7 @@ TEST(Film, AddsTheLargestFloat) {
     EXPECT_EQ(film.means(4).primal(0, 0), Rgb(std::numeric_limits<float>::max()));
 }
 
-/// Sums of floats would lose all of the small values: the mean is right to half a unit in the last place.
+/// Sums in floats would lose the small values. The means are exact to half a unit in the last place.
 TEST(Film, SumsOfManyPassesDoNotDrift) {
     constexpr int passes = 100'001;
     Film film(1, 1, {.gradients = true, .reuse = true});
@@ -209,8 +208,8 @@ TEST(Film, SumsOfManyPassesDoNotDrift) {
     }
 }
 
-/// A pixel's three samples are summed by hand: the means' variances are sums over the channels of s^2 / n.
-TEST(Film, VariancesOfTheMeans) {
+/// The variance of a mean is the sum over the channels of s^2 / n, with s^2 as the sample variance.
+TEST(Film, VariancesAreThoseOfTheMeans) {
     Film film(2, 2, {.gradients = true});
     Counters counters;
     const float values[] = {1, 2, 6}; // mean 3, s^2 = (4 + 1 + 9) / 2
@@ -235,9 +234,9 @@ TEST(Film, VariancesStayFinite) {
     EXPECT_EQ(film.means(2).primal_variance(0, 0), std::numeric_limits<float>::max());
 }
 
-/// Whoever counts, and in whatever order counts are added: the first are those of the earliest pass, then row,
-/// then column, and each is there once.
-TEST(Counters, RememberTheFirstRefusedSamples) {
+/// Samples are sorted by pass, row and column, and each counts once. Neither their order nor their distribution
+/// over counters changes the result.
+TEST(Counters, KeepTheFirstInvalidSamplesInAnyOrder) {
     const InvalidSample in_order[] = {{1, 2, 9}, {1, 3, 0}, {1, 3, 1}, {2, 0, 0}};
     std::size_t order[] = {0, 1, 2, 3};
     do {
@@ -250,7 +249,7 @@ TEST(Counters, RememberTheFirstRefusedSamples) {
         all += sums[0];
         all += Counters{};
         all += sums[1];
-        one.refuse(in_order[0]); // again, as where a block's border is traced twice
+        one.refuse(in_order[0]); // twice, as pixels that two blocks trace
         all.refuse(in_order[3]);
         for (const Counters& c : {one, all}) {
             EXPECT_EQ(c.refused_samples, 5u);
@@ -259,18 +258,18 @@ TEST(Counters, RememberTheFirstRefusedSamples) {
     } while (std::next_permutation(std::begin(order), std::end(order)));
 }
 
-TEST(Counters, RememberNoMoreRefusedSamplesThanTheFirst) {
+TEST(Counters, KeepOnlyTheFirstInvalidSamples) {
     Counters counters;
     constexpr int count = 3 * FirstInvalid::most;
     for (int i = 0; i < count; ++i)
-        counters.refuse({0, 0, 7 * i % count}); // 7 and 48 have no common factor: each once
+        counters.refuse({0, 0, 7 * i % count}); // 7 and 48 have no common factor, so each occurs once
     EXPECT_EQ(counters.refused_samples, static_cast<std::uint64_t>(count));
     ASSERT_EQ(counters.first_invalid.list().size(), FirstInvalid::most);
     for (std::size_t i = 0; i < FirstInvalid::most; ++i)
         EXPECT_EQ(counters.first_invalid.list()[i].x, static_cast<int>(i));
 }
 
-TEST(Counters, SayWhereTheFirstRefusedSampleIs) {
+TEST(Counters, NameThePlaceOfTheFirstInvalidSample) {
     Counters counters;
     EXPECT_EQ(invalid_text(counters, 3), "");
     counters.refuse({5, 2, 7});

@@ -1,4 +1,4 @@
-// Half vectors copied between vertices: the shift is its own inverse, and its Jacobian is the derivative.
+// Half-vector copies between vertices: the copy inverts itself, and its Jacobian is the derivative, METHODS (15).
 #include "render/paths/shift.h"
 #include "tests/surface/bsdf_cases.h"
 
@@ -25,7 +25,7 @@ Bsdf rough_glass(float eta, float alpha = 0.5f) {
     return {RoughDielectric{{MicrofacetDistribution::ggx, alpha}, eta}};
 }
 
-/// The solid angle at the offset over that at the base, by differences.
+/// Returns the solid angle at the offset over that at the base, by finite differences.
 double measured_jacobian(const Vertex& base, glm::vec3 to_next, const Vertex& offset) {
     const Frame around(to_next);
     const float step = 5e-4f;
@@ -33,16 +33,16 @@ double measured_jacobian(const Vertex& base, glm::vec3 to_next, const Vertex& of
         const glm::vec3 d = glm::normalize(to_next + x * around.tangent + y * around.bitangent);
         return glm::dvec3(copy_half_vector(base, d, offset).value().to_next);
     };
-    const glm::dvec3 by_x = (moved(step, 0) - moved(-step, 0)) / (2.0 * step);
-    const glm::dvec3 by_y = (moved(0, step) - moved(0, -step)) / (2.0 * step);
-    return glm::length(glm::cross(by_x, by_y));
+    const glm::dvec3 slope_x = (moved(step, 0) - moved(-step, 0)) / (2.0 * step);
+    const glm::dvec3 slope_y = (moved(0, step) - moved(0, -step)) / (2.0 * step);
+    return glm::length(glm::cross(slope_x, slope_y));
 }
 
 struct Tally {
     int copied = 0, transmitted = 0, reflected = 0;
 };
 
-/// Copies many scatters of `a` to `b`, whose views differ a little, and back.
+/// Copies many scatters of `a` to `b` and back. The views and normals of both vertices differ a little.
 Tally copy_there_and_back(const Bsdf& a, const Bsdf& b, float side) {
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
@@ -66,15 +66,15 @@ Tally copy_there_and_back(const Bsdf& a, const Bsdf& b, float side) {
         ++(transmits ? tally.transmitted : tally.reflected);
         const auto back = copy_half_vector(offset, there->to_next, base);
         if (!back) {
-            ADD_FAILURE() << "no way back";
+            ADD_FAILURE() << "the copy back failed";
             continue;
         }
         EXPECT_LT(glm::distance(back->to_next, s->to_next), 2e-4f);
         EXPECT_NEAR(there->jacobian * back->jacobian, 1, 1e-3f);
-        // Close to total reflection the derivative has no bound, and differences say nothing.
+        // Near total reflection the derivative is unbounded, and finite differences are inaccurate.
         if (there->jacobian < 5 && back->jacobian < 5 && std::abs(there->to_next.z) > 0.1f &&
             std::abs(s->to_next.z) > 0.1f) {
-            EXPECT_NEAR(measured_jacobian(base, s->to_next, offset) / there->jacobian, 1, 1.5e-3); // of floats
+            EXPECT_NEAR(measured_jacobian(base, s->to_next, offset) / there->jacobian, 1, 1.5e-3); // rounding
         }
     }
     return tally;
@@ -93,8 +93,8 @@ TEST(HalfVector, IsInvertibleWithItsJacobian) {
     EXPECT_EQ(copy_there_and_back(rough_glass(1.5f), metal, 1).transmitted, 0);
 }
 
-/// What a sheet lets through is a reflection on the other side; between it and glass there is no way.
-TEST(HalfVector, IsCopiedThroughSheets) {
+/// Transmission through a thin sheet is a mirrored reflection. It cannot be copied to refracting glass, or back.
+TEST(HalfVector, IsCopiedThroughThinSheets) {
     const Bsdf sheet = resolved(thin_principled(0.5f, 1));
     for (const float side : {1.0f, -1.0f}) {
         const Tally same = copy_there_and_back(sheet, sheet, side);
@@ -105,28 +105,29 @@ TEST(HalfVector, IsCopiedThroughSheets) {
     }
     const Bsdf layer{UncommonBsdf{MediumLayer{Rgb(0.8f), Rgb(1), 0.5f, true}}};
     EXPECT_GT(copy_there_and_back(layer, sheet, 1).transmitted, 50);
-    // In a blend with glass it is scattered to where glass would not bend it, too.
+    // A blend of glass and sheet also transmits to directions that glass alone cannot.
     const Bsdf both = resolved(blend(shared(glass(0.4f)), shared(thin_principled(0, 2)), 0.5f));
     EXPECT_GT(copy_there_and_back(both, both, 1).transmitted, 50);
     EXPECT_GT(copy_there_and_back(both, both, -1).transmitted, 50);
 }
 
-TEST(HalfVector, ATransmissionStaysOne) {
-    // A refraction into the dense side that would be total reflection at the offset, the other way round.
+TEST(HalfVector, CopiesTransmissionsToTransmissionsOnly) {
+    // A refraction into the glass has no copy at an offset that is inside.
     const Vertex base = vertex(rough_glass(1.5f), {0.1f, 0, 1}), inside = vertex(rough_glass(1.5f), {1, 0, -0.5f});
     const auto straight = refract(base.to_previous, {0, 0, 1}, 1.5f);
     ASSERT_TRUE(straight);
     EXPECT_TRUE(copy_half_vector(base, *straight, base));
     EXPECT_FALSE(copy_half_vector(base, *straight, inside));
     EXPECT_FALSE(copy_half_vector(base, *straight, vertex({Diffuse{Rgb(0.5f)}}, {0, 0, 1})));
-    // A reflection whose copy would dive below the surface.
+    // A reflection whose copy would leave below the surface.
     const glm::vec3 half = glm::normalize(glm::vec3(0.6f, 0, 1));
     EXPECT_FALSE(
         copy_half_vector(vertex(rough_glass(1.5f), half), half, vertex(rough_glass(1.5f), {-1, 0, 0.3f})));
 }
 
-/// Frames turn about the normal by any angle between normals that hardly differ: directions must not.
-TEST(HalfVector, TurnsWithTheNormalAndNoMore) {
+/// Tangents of frames can differ by any angle between nearly equal normals. Copied directions must not depend on
+/// that.
+TEST(HalfVector, TurnsWithTheNormalOnly) {
     const Bsdf metal{RoughConductor{{MicrofacetDistribution::ggx, 0.4f}}};
     for (const glm::vec3 normal : {glm::vec3(1, 0, 0.01f), glm::vec3(1, 1, 0.01f), glm::vec3(0, 1, 0.01f),
                                    glm::vec3(0.3f, 0.2f, -1), glm::vec3(-1, 0, 0.01f)}) {

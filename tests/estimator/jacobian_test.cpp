@@ -1,5 +1,5 @@
-// Jacobians of single steps of a shift against finite differences: half vectors copied from every kind of glossy
-// surface to every other, and reconnection.
+// Jacobians of single steps of a shift against finite differences: half-vector copies between all pairs of glossy
+// surfaces, reconnections to vertices and to lights, and random replay.
 #include "render/paths/shift.h"
 #include "tests/support/one_shift.h"
 #include "tests/support/rooms.h"
@@ -24,7 +24,8 @@ namespace {
 
 using Move = std::function<std::optional<glm::dvec3>(glm::vec3)>;
 
-/// Solid angle of moved(d) over that of d, by differences; empty where a neighbour of d cannot be moved.
+/// Returns the ratio of solid angles of moved(d) and d, by finite differences; empty if a direction next to d
+/// cannot be moved.
 std::optional<double> measured_jacobian(glm::vec3 d, const Move& moved) {
     const Frame around(d);
     const float step = 5e-4f;
@@ -50,7 +51,7 @@ const Coating& coating() {
     return table;
 }
 
-/// All BSDFs that half vectors are copied from and to, rough and less so.
+/// Returns BSDFs of all kinds that half vectors are copied from and to.
 std::vector<NamedBsdf> glossy_bsdfs() {
     using enum MicrofacetDistribution;
     std::vector<NamedBsdf> list;
@@ -70,7 +71,7 @@ std::vector<NamedBsdf> glossy_bsdfs() {
     list.push_back({"water", {RoughDielectric{{ggx, 0.3f}, 1.33f}}, true});
     list.push_back({"plastic", {Plastic(coating(), {beckmann, 0.2f}, Rgb(1), Rgb(0.4f), false)}});
     list.push_back({"phong", {Phong(20, Rgb(0.2f), Rgb(0.5f))}});
-    list.push_back({"diffuse", {Diffuse{Rgb(0.5f)}}}); // on the way to a smooth coating, say
+    list.push_back({"diffuse", {Diffuse{Rgb(0.5f)}}}); // the offset of a glossy base can be diffuse
     return list;
 }
 
@@ -79,7 +80,7 @@ struct PairTally {
     double worst = 0; ///< |measured / Jacobian - 1|
 };
 
-/// Copies scatters of one surface to another one beside it, turned a little and seen from a little elsewhere.
+/// Copies scatters of one surface to another one with a slightly different normal and view.
 PairTally copy_many(const Bsdf& from, const Bsdf& to, float side) {
     std::mt19937 engine(11);
     std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
@@ -104,7 +105,7 @@ PairTally copy_many(const Bsdf& from, const Bsdf& to, float side) {
         const auto copy = copy_half_vector(base, s->to_next, offset);
         if (!copy)
             continue;
-        // Close to total reflection and to the horizon the derivative has no bound: differences say nothing there.
+        // Near total reflection and the horizon the derivative is unbounded, and differences are inaccurate.
         if (copy->jacobian > 4 || copy->jacobian < 0.25f || std::abs(copy->to_next.z) < 0.15f ||
             std::abs(s->to_next.z) < 0.15f)
             continue;
@@ -120,7 +121,7 @@ PairTally copy_many(const Bsdf& from, const Bsdf& to, float side) {
     return tally;
 }
 
-TEST(Jacobian, OfHalfVectorsBetweenAllGlossySurfaces) {
+TEST(Jacobian, OfHalfVectorCopiesEqualsFiniteDifferences) {
     const std::vector<NamedBsdf> all = glossy_bsdfs();
     for (const NamedBsdf& from : all)
         for (const NamedBsdf& to : all)
@@ -129,7 +130,7 @@ TEST(Jacobian, OfHalfVectorsBetweenAllGlossySurfaces) {
                     continue; // black from below
                 const PairTally t = copy_many(from.bsdf, to.bsdf, side);
                 const std::string name = from.name + " to " + to.name + (side > 0 ? "" : " from below");
-                EXPECT_LT(t.worst, 1.5e-3) << name; // of floats: the worst is 1.24e-3, in principled glass
+                EXPECT_LT(t.worst, 1.5e-3) << name; // rounding
                 EXPECT_GT(t.reflected + t.transmitted, 10) << name;
                 if (from.transmits && to.transmits) {
                     EXPECT_GT(t.transmitted, 10) << name;
@@ -139,8 +140,8 @@ TEST(Jacobian, OfHalfVectorsBetweenAllGlossySurfaces) {
             }
 }
 
-/// Calls `visit(base, other)` for base paths of pixels of a scene and those of other pixels, `apart` from them,
-/// that take the same random numbers; both see something.
+/// Calls `visit(base, other)` for base paths of pixels and of the pixels at a distance `apart` (pixels), with the
+/// same random numbers. Both paths hit a surface.
 template <class Visit>
 void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&& visit) {
     const Projection projection(tracer.scene.camera(), {64, 48});
@@ -155,9 +156,8 @@ void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&
     }
 }
 
-/// A diffuse vertex that sees another one, and a diffuse offset: then all that shift() makes of the ratio of
-/// densities but pdf_w(y_1) / pdf_w(x_1) is the Jacobian |cos' / cos| r^2 / r'^2.
-TEST(Jacobian, OfReconnectionIsThatOfDirections) {
+/// In a diffuse room the ratio of METHODS (6) is pdf_w(y_1) / pdf_w(x_1) times the Jacobian of METHODS (14).
+TEST(Jacobian, OfReconnectionEqualsFiniteDifferences) {
     const auto scene = Room().build();
     Counters counters;
     const Tracer tracer{*scene, counters, {4, 0}};
@@ -173,13 +173,13 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
             OffsetPaths paths;
             const Vertex &x = base[0].vertex, &join = base[1].vertex, &y = other[0].vertex;
             shift_to_one(tracer, settings, base, light, other, paths);
-            const float density = paths.ratio(light.tail_slot(), 0);
+            const float ratio = paths.ratio(light.tail_slot(), 0);
             const glm::vec3 to_join = glm::normalize(join.position - y.position);
             const float pdf_w = y.bsdf.evaluate(y.to_previous, y.to_local(to_join)).pdf_w;
-            if (!(density > 0) || glm::distance(x.position, join.position) < 0.3f ||
+            if (!(ratio > 0) || glm::distance(x.position, join.position) < 0.3f ||
                 glm::distance(y.position, join.position) < 0.3f)
                 continue;
-            // The direction is moved, and so is the point that it meets on the plane of x_2.
+            // A moved direction meets the plane of x_2 at another point, which y_1 sees in another direction.
             const glm::dvec3 from(x.position), at(join.position), normal(join.geometric_normal), to(y.position);
             const glm::vec3 direction = glm::normalize(join.position - x.position);
             if (std::abs(glm::dot(direction, join.geometric_normal)) < 0.15f)
@@ -189,15 +189,15 @@ TEST(Jacobian, OfReconnectionIsThatOfDirections) {
                 const glm::dvec3 point = from + ray * (glm::dot(at - from, normal) / glm::dot(ray, normal));
                 return std::optional(glm::normalize(point - to));
             });
-            EXPECT_NEAR(density * base[0].pdf_w / pdf_w / *measured, 1, 1e-3);
+            EXPECT_NEAR(ratio * base[0].pdf_w / pdf_w / *measured, 1, 1e-3);
             ++count;
         }
     });
     EXPECT_GT(count, 200);
 }
 
-/// For a point on a light, the ratio of densities is that of the sums over both strategies.
-TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
+/// For a point on a light, the densities P of METHODS (6) are sums over emitter sampling and BSDF sampling.
+TEST(Jacobian, OfLightSamplesEqualsFiniteDifferences) {
     const auto scene = Room().build();
     Counters counters;
     const Tracer tracer{*scene, counters, {2, 0}};
@@ -230,10 +230,9 @@ TEST(Jacobian, OfLightSamplesIsThatOfDirections) {
     EXPECT_GT(count, 100);
 }
 
-/// Replayed numbers are the same point in the space of random numbers, so that Jacobians and densities cancel.
-/// Where nothing is connectable that is true all the way: the density ratio of every light path is 1, and its
-/// value that of the offset's own replay.
-TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
+/// In the space of random numbers replay is the identity. With shift threshold 1 no vertex is connectable, so the
+/// ratio of every light path is 1, and its value equals the value of the offset's own replay.
+TEST(Jacobian, OfReplayCancelsTheRatioOfDensities) {
     Room r;
     r.quad({-0.95f, -0.97f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.3f));
     r.sphere({0.35f, -0.55f, 0}, 0.35f, r.rough_glass(0.3f));
@@ -245,11 +244,11 @@ TEST(Jacobian, OfReplayUndoesTheRatioOfDensities) {
     for_pairs(tracer, 5, {1, 1}, [&](const BasePath& base, const BasePath& other) {
         LightPaths light, own;
         light.reset(base, settings);
-        own.reset(other, settings); // `other` has the base's numbers
+        own.reset(other, settings); // `other` uses the base's random numbers
         OffsetPaths paths;
         shift_to_one(tracer, settings, base, light, other, paths);
         for (int slot = 0; slot < std::min(light.slot_count(), own.slot_count()); ++slot) {
-            if (!(paths.ratio(slot, 0) > 0) || !own.is_alive(slot)) // dark: an edge that is not looked at here
+            if (!(paths.ratio(slot, 0) > 0) || !own.is_alive(slot)) // the offset's shadow rays are not traced here
                 continue;
             EXPECT_NEAR(paths.ratio(slot, 0), 1, 1e-4);
             EXPECT_NEAR(luminance(paths.value(slot, 0)) / luminance(own.carried(slot)), 1, 1e-3);

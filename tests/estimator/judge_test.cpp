@@ -1,5 +1,5 @@
-// Every method against the naive judge, on every small scene: primal and gradients, borders and odd tiles
-// included.
+// Z-tests of every method against the naive path tracer, on every small scene: primal, gradients and unbiased
+// reconstructions, also at borders and in incomplete tiles.
 #include "render/run/render.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
@@ -23,16 +23,15 @@ namespace tessera::test {
 namespace {
 
 constexpr int naive_samples = 32768;
-constexpr int runs = 96; // what lies evenly over few passes has long tails: standard errors ask for many runs
+constexpr int runs = 96; // stratified samples have long tails, so standard errors need many runs
 constexpr int passes = 8;
 
-// Sizes of the pictures, no multiples of tiles. The small one takes a third of the time, and the limits of its
-// z-tests are wider, as it has fewer pixels: a bias of all pixels must be twice as large to be seen. With fewer
-// samples instead, rare bright paths would leave pixels too uneven for z-tests.
+// Sizes of the pictures, pixels; no multiples of tiles. The small one takes a third of the time. Its z-tests have
+// wider limits, as it has fewer pixels: they detect only a bias twice as large. Fewer samples instead would leave
+// too many outliers from rare bright paths.
 constexpr glm::ivec2 small(7, 5);
 constexpr glm::ivec2 large(13, 9);
 
-/// What of the settings a variant has that is not the default.
 struct Variant {
     std::string name;
     RenderSettings settings;
@@ -44,14 +43,15 @@ Variant variant(std::string name, Method method, int tile,
     s.method = method;
     s.tile = tile;
     s.seed = 1000 * static_cast<std::uint64_t>(tile) + 17;
-    s.path_guiding = Guiding::off; // so that each variant is of one thing, whatever passes find
+    s.path_guiding = Guiding::off; // by default it depends on the samples
     if (change)
         change(s);
     return {std::move(name), s};
 }
 
-/// Every method and shift, tiles of all kinds, and every option that changes what is sampled or weighted. Most
-/// variants switch adaptive tile splitting off: in these small pictures, it leaves many pixels that share nothing.
+/// Returns variants of every method and shift, tiles of all kinds, and every option that changes sampling or
+/// weights. Most variants switch adaptive tile splitting off: in these small pictures, it leaves many pixels
+/// without reuse.
 std::vector<Variant> all_variants() {
     using S = RenderSettings;
     return {
@@ -105,22 +105,22 @@ std::vector<Variant> all_variants() {
     };
 }
 
-/// Positions that lie evenly over a run's passes see the same of an edge in nearly all runs, and seldom something
-/// else: what the runs do not show is in no standard error of theirs. It is not less than that of as many
-/// independent positions then.
-/// @param positions  in a pass of all runs
+/// Raises standard errors to at least the standard error of as many independent camera positions. Stratified
+/// positions find the same fraction of an edge in nearly all runs, so the variance between runs misses the rare
+/// others.
+/// @param positions  camera positions a pass, summed over all runs
 /// @param where      1: in these pixels; null: in all
-Measured no_surer_than_by_chance(Measured m, const Measured& truth, int positions,
-                                 const Image<std::uint8_t>* where) {
-    const auto more = static_cast<float>(std::sqrt(static_cast<double>(naive_samples) / (passes * positions)));
+Measured with_least_standard_error(Measured m, const Measured& truth, int positions,
+                                   const Image<std::uint8_t>* where) {
+    const auto scale = static_cast<float>(std::sqrt(static_cast<double>(naive_samples) / (passes * positions)));
     for (std::size_t i = 0; i < m.mean.size(); ++i)
         if (!where || where->data()[i])
             m.standard_error.data()[i] =
-                glm::max(m.standard_error.data()[i], truth.standard_error.data()[i] * more);
+                glm::max(m.standard_error.data()[i], truth.standard_error.data()[i] * scale);
     return m;
 }
 
-/// The pixels that see several things in some of the runs, whose looks differ.
+/// Returns 1 for the pixels that are mixed (LearnedReuse::is_mixed) with any of 32 seeds.
 Image<std::uint8_t> ever_mixed(const std::shared_ptr<const Scene>& scene, glm::ivec2 size,
                                RenderSettings settings) {
     Image<std::uint8_t> all(size.x, size.y);
@@ -134,17 +134,17 @@ Image<std::uint8_t> ever_mixed(const std::shared_ptr<const Scene>& scene, glm::i
     return all;
 }
 
-/// Each method in one form, and of the other variants every second: half of the scenes have the one half, the
-/// others the other.
+/// Returns one variant of each method and half of the other variants: the even or the odd ones, by the scene's
+/// name.
 std::vector<Variant> variants_of(const std::string& scene) {
     constexpr std::string_view always[] = {"pt", "pr, absolute roulette, tiles whole", "gpt, RR depth 1", "gpr",
                                            "gpr, tiles whole"};
-    std::vector<Variant> some;
-    std::size_t number = std::accumulate(scene.begin(), scene.end(), std::size_t{0});
+    std::vector<Variant> variants;
+    std::size_t parity = std::accumulate(scene.begin(), scene.end(), std::size_t{0});
     for (Variant& v : all_variants())
-        if (std::ranges::count(always, v.name) > 0 || number++ % 2 == 0)
-            some.push_back(std::move(v));
-    return some;
+        if (std::ranges::count(always, v.name) > 0 || parity++ % 2 == 0)
+            variants.push_back(std::move(v));
+    return variants;
 }
 
 class Judge : public testing::TestWithParam<TestScene> {
@@ -157,7 +157,7 @@ protected:
     }
 
     struct Test {
-        std::string what;
+        std::string image;
         ZResult z;
     };
 
@@ -169,7 +169,7 @@ protected:
         };
         for (const Test& t : tests_by_enough_runs(v.settings.seed, runs, tests_of_runs))
             EXPECT_TRUE(t.z.passes()) << GetParam().name << ' ' << v.name << " tile " << v.settings.tile << ' '
-                                      << t.what << ": " << t.z.to_string();
+                                      << t.image << ": " << t.z.to_string();
     }
 
     std::vector<Test> tests_of(const NaiveMeasured& truth, Variant v, glm::ivec2 size, int count) {
@@ -180,22 +180,22 @@ protected:
         const MethodMeasured m = measure(t.scene, size, v.settings, count * t.effort, passes);
         const Image<std::uint8_t> mixed =
             has_positions(v.settings) ? ever_mixed(t.scene, size, v.settings) : Image<std::uint8_t>();
-        const auto floored = [&](const Measured& measured) { // of light, where it is seen from several positions
+        const auto floored = [&](const Measured& measured) {
             return has_positions(v.settings)
-                       ? no_surer_than_by_chance(measured, truth.light, count * camera_positions(v.settings),
-                                                 &mixed)
+                       ? with_least_standard_error(measured, truth.light, count * camera_positions(v.settings),
+                                                   &mixed)
                        : measured;
         };
         std::vector<Test> tests;
-        const auto add = [&](const std::string& what, const ZResult& z) {
-            std::printf("  %-26s %-58s tile %2d, %3.0f %% of the pixels share, %4d runs %-11s %s\n",
-                        t.name.c_str(), v.name.c_str(), v.settings.tile, 100 * m.sharing, count, what.c_str(),
+        const auto add = [&](const std::string& image, const ZResult& z) {
+            std::printf("  %-26s %-58s tile %2d, %3.0f %% of the pixels reuse paths, %4d runs %-11s %s\n",
+                        t.name.c_str(), v.name.c_str(), v.settings.tile, 100 * m.sharing, count, image.c_str(),
                         z.to_string().c_str());
-            tests.push_back({what, z});
+            tests.push_back({image, z});
         };
         add("primal", z_test(floored(m.primal), truth.light));
-        add("very direct",
-            z_test(no_surer_than_by_chance(m.very_direct, truth.very_direct, count, nullptr), truth.very_direct));
+        add("very direct", z_test(with_least_standard_error(m.very_direct, truth.very_direct, count, nullptr),
+                                  truth.very_direct));
         for (const auto& [norm, picture] : m.pictures)
             add("picture " + std::string(to_string(norm)),
                 z_test(floored(picture), sum(truth.light, truth.very_direct)));
@@ -204,20 +204,19 @@ protected:
         const bool is_demodulated = v.settings.basis == Basis::albedo;
         if (is_demodulated)
             add("coefficient", z_test(m.coefficient, truth.coefficient));
-        const Measured& of = is_demodulated ? truth.coefficient : truth.light;
-        add("dx", z_test(m.dx, difference_x(of)));
-        add("dy", z_test(m.dy, difference_y(of)));
+        const Measured& primal = is_demodulated ? truth.coefficient : truth.light;
+        add("dx", z_test(m.dx, difference_x(primal)));
+        add("dy", z_test(m.dy, difference_y(primal)));
         return tests;
     }
 };
 
-TEST_P(Judge, AllMethods) {
-    // In the room with the glass ball, rare bright paths lie in one small picture's one tile, which all pixels
-    // share.
+TEST_P(Judge, AllMethodsAreUnbiased) {
+    // In the small picture of the glass ball, all pixels are in one tile and share its rare bright paths.
     judge_all(GetParam().name == "glass" ? large : small, variants_of(GetParam().name));
 }
 
-TEST_P(Judge, SlowAllVariantsAtFullSize) {
+TEST_P(Judge, SlowAllVariantsAreUnbiased) {
     judge_all(large, all_variants());
 }
 

@@ -1,5 +1,5 @@
-// The edges of lamps that the camera sees: where the film finds them, and that more rays there make less
-// noise. (That it is no bias: the judge.)
+// Edges of directly visible lamps: where the film finds them, and that more rays there reduce noise.
+// judge_test.cpp shows that they add no bias.
 #include "render/run/render.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
@@ -15,7 +15,7 @@ namespace tessera::test {
 
 namespace {
 
-/// A lamp alone, somewhat tilted; half as far as what is in focus.
+/// Returns a scene of one tilted lamp at half of the focus distance.
 std::shared_ptr<const Scene> lamp_in_the_dark(float aperture_radius = 0) {
     SceneBuilder b;
     b.quad({-0.5f, -0.4f, 0}, {1, 0.1f, 0}, {-0.1f, 0.9f, 0}, b.diffuse(Rgb(0.5f)),
@@ -63,29 +63,29 @@ TEST(LampEdges, HaveLessNoiseFromTheFirstPassOn) {
     }
 }
 
-TEST(LampEdges, AreBothSidesOfSteps) {
+TEST(LampEdges, IncludeThePixelsOnBothSides) {
     Film film(5, 3, {.lamp_edges = true});
     EXPECT_FALSE(film.has_lamp_edge(2, 1));
-    RgbImage look(7, 5, Rgb(1)); // a pixel more on all sides
-    look(3, 2) = Rgb(1.01f);     // hardly another
-    film.find_lamp_edges(look);
+    RgbImage emission(7, 5, Rgb(1)); // one more pixel on all sides
+    emission(3, 2) = Rgb(1.01f);     // too small a step for an edge
+    film.find_lamp_edges(emission);
     EXPECT_FALSE(film.has_lamp_edge(2, 1));
-    look(5, 1) = Rgb(0);
-    film.find_lamp_edges(look);
+    emission(5, 1) = Rgb(0);
+    film.find_lamp_edges(emission);
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 5; ++x)
             EXPECT_EQ(film.has_lamp_edge(x, y), x >= 3 && y <= 1) << x << ',' << y;
-    look(2, 4) = Rgb(0); // below the film
-    film.find_lamp_edges(look);
+    emission(2, 4) = Rgb(0); // below the film
+    film.find_lamp_edges(emission);
     for (int x = 0; x < 3; ++x)
         EXPECT_TRUE(film.has_lamp_edge(x, 2)) << x;
 }
 
-/// A lamp above the picture has three tenths of its first row: no ray through the middle of a pixel meets it.
+/// The lamp covers three tenths of the first row, and no ray through the centre of a pixel hits it.
 TEST(LampEdges, AreFoundInTheOutermostPixels) {
     SceneBuilder b;
     b.quad({-2, 0.9625f, 0}, {4, 0, 0}, {0, 1, 0}, b.diffuse(Rgb(0.5f)), b.light(Texture(Rgb(1))));
-    b.camera(Camera{look_at({0, 0, 1}, {0, 0, 0}), 90, FovAxis::x}); // sees -1 to 1, sixteen pixels
+    b.camera(Camera{look_at({0, 0, 1}, {0, 0, 0}), 90, FovAxis::x}); // sees [-1, 1] in 16 pixels
     const auto scene = b.build();
     RenderSettings settings;
     settings.method = Method::pt;
@@ -94,7 +94,7 @@ TEST(LampEdges, AreFoundInTheOutermostPixels) {
         settings.seed = seed;
         Render render(scene, scene->camera(), {16, 16}, settings);
         ThreadPool pool(1);
-        for (const int rays : {16, 64}) { // after one pass, and after four: each ray has a row of its own
+        for (const int rays : {16, 64}) { // after 1 and 4 passes; each ray has its own row
             while (render.spp() * edge_emitter_rays < rays)
                 render.pass(pool);
             const RgbImage image = render.images().very_direct;
@@ -104,7 +104,7 @@ TEST(LampEdges, AreFoundInTheOutermostPixels) {
     }
 }
 
-/// Before a lamp, a surface that is not opaque, which one ray meets and another does not: edges everywhere.
+/// A mask in front of a lamp lets rays through at random, so all pixels count as edges.
 TEST(LampEdges, AreEverywhereBehindMasks) {
     constexpr float opacity = 0.84f;
     SceneBuilder b;
@@ -126,12 +126,12 @@ TEST(LampEdges, AreEverywhereBehindMasks) {
     double squares = 0;
     for (Rgb pixel : image)
         squares += std::pow(static_cast<double>(pixel.g + opacity - 1), 2);
-    const double of_one_ray = static_cast<double>(opacity * (1 - opacity)) / passes; // a sample, not 16
-    EXPECT_LT(squares / static_cast<double>(image.size()), of_one_ray / 12);
+    const double variance_of_one_ray = static_cast<double>(opacity * (1 - opacity)) / passes;
+    EXPECT_LT(squares / static_cast<double>(image.size()), variance_of_one_ray / 12);
 }
 
-/// In a mirror, a lamp is as sharp and as free of noise as beside it.
-TEST(LampEdges, AreSeenInMirrors) {
+/// A lamp in a mirror is directly visible emission with more rays at its edges.
+TEST(LampEdges, AreFoundInMirrors) {
     SceneBuilder b;
     b.quad({-0.5f, -0.4f, 5}, {-0.1f, 0.9f, 0}, {1, 0.1f, 0}, b.diffuse(Rgb(0.5f)),
            b.light(Texture(Rgb(3, 2, 1))));
@@ -148,7 +148,8 @@ TEST(LampEdges, AreSeenInMirrors) {
         const GradientImages images = render.images();
         const auto is_lit = [](Rgb c) { return c != Rgb(0); };
         EXPECT_GT(std::ranges::count_if(images.very_direct, is_lit), 10);
-        EXPECT_TRUE(std::ranges::none_of(images.radiance(), is_lit)) << "nothing is left to share";
+        EXPECT_TRUE(std::ranges::none_of(images.radiance(), is_lit))
+            << "the mirror shows directly visible emission only";
         settings.edge_rays = false;
         Render plain(scene, scene->camera(), {24, 24}, settings);
         plain.pass(pool);
@@ -158,7 +159,7 @@ TEST(LampEdges, AreSeenInMirrors) {
     }
 }
 
-/// What is seen in a mirror is all there in each sample, whatever the roulette on path length.
+/// Each sample contains all directly visible emission in a mirror, with any roulette on path length.
 TEST(LampEdges, MirrorsTakeNoRoulette) {
     SceneBuilder b;
     b.quad({-2, -1.6f, 5}, {-0.4f, 3.6f, 0}, {4, 0.4f, 0}, b.diffuse(Rgb(0.5f)), b.light(Texture(Rgb(3, 2, 1))));
@@ -179,8 +180,8 @@ TEST(LampEdges, MirrorsTakeNoRoulette) {
             EXPECT_LT(glm::distance(image(x, y), Rgb(3, 2, 1)), 1e-4f) << x << ',' << y;
 }
 
-/// All of a lamp's middle, and the same colour everywhere: nothing is looked for twice.
-TEST(LampEdges, AreFollowedOnlyWhereTheyAre) {
+/// Pixels in the middle of a lamp need no further rays.
+TEST(LampEdges, TakeMoreRaysOnlyAtEdges) {
     const auto camera_rays = [](bool edge_rays) {
         static const auto scene = lamp_in_the_dark();
         RenderSettings settings;
@@ -193,10 +194,10 @@ TEST(LampEdges, AreFollowedOnlyWhereTheyAre) {
             render.pass(pool);
         return render.counters().rays[static_cast<std::size_t>(RayKind::camera)];
     };
-    const auto plain = camera_rays(false), all = plain * 17;
+    const auto plain = camera_rays(false), everywhere = plain * 17;
     EXPECT_EQ(plain, 4u * 24 * 24);
     EXPECT_GT(camera_rays(true), plain);
-    EXPECT_LT(camera_rays(true), all / 2);
+    EXPECT_LT(camera_rays(true), everywhere / 2);
 }
 
 } // namespace

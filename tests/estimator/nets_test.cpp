@@ -1,4 +1,5 @@
-// Numbers that lie evenly over the passes: nets, what they spare, and that no pass goes by what tells of its own.
+// Nets over the passes: their stratification, the noise that they save, and that they begin again after learning,
+// so that no pass depends on what earlier points of its own nets decided.
 #include "render/estimator/pass.h"
 #include "render/run/render.h"
 #include "render/sampling/random.h"
@@ -22,7 +23,8 @@ namespace {
 
 constexpr glm::ivec2 size(32, 24);
 
-/// A floor under a lamp that the camera does not see, so near that its light comes from many directions.
+/// Returns a scene of a floor under a near lamp, which the camera does not see and which lights it from many
+/// directions.
 std::shared_ptr<const Scene> lit_floor() {
     SceneBuilder b;
     b.quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, b.diffuse(Rgb(0.5f)));
@@ -40,9 +42,10 @@ RenderSettings settings_of(Method method, std::uint64_t seed = 0) {
     return s;
 }
 
-/// In which of so many equal parts a pass' numbers for a pixel are: its position and what is drawn at x_1.
-std::vector<int> parts_of(const Scene& scene, const RenderSettings& s, const LearnedReuse& learned, int pass,
-                          int parts, int path = 0) {
+/// Returns the strata, of `count` equal intervals, of a pass' numbers for one pixel: its position and the numbers
+/// drawn at x_1.
+std::vector<int> strata_of(const Scene& scene, const RenderSettings& s, const LearnedReuse& learned, int pass,
+                           int count, int path = 0) {
     const Pass p(scene, scene.camera(), size, s, learned, pass);
     std::vector<glm::vec2> numbers{p.camera_sample({5, 7}, path).subpixel};
     for (const Draw purpose :
@@ -51,26 +54,26 @@ std::vector<int> parts_of(const Scene& scene, const RenderSettings& s, const Lea
     std::vector<int> result;
     for (const glm::vec2 n : numbers)
         for (const float a : {n.x, n.y})
-            result.push_back(static_cast<int>(a * static_cast<float>(parts)));
+            result.push_back(static_cast<int>(a * static_cast<float>(count)));
     return result;
 }
 
 constexpr std::size_t positions = 2, all_numbers = 12;
 
-/// How many of the numbers lie evenly: in each of as many parts as there are passes.
-int count_even(const Scene& scene, const RenderSettings& s, const LearnedReuse& learned, int from, int to,
-               int path = 0) {
-    std::array<std::set<int>, all_numbers> parts;
+/// Returns how many of the numbers are stratified: over n passes, each of n strata has one.
+int count_stratified(const Scene& scene, const RenderSettings& s, const LearnedReuse& learned, int from, int to,
+                     int path = 0) {
+    std::array<std::set<int>, all_numbers> strata;
     for (int pass = from; pass < to; ++pass) {
-        const std::vector<int> found = parts_of(scene, s, learned, pass, to - from, path);
+        const std::vector<int> found = strata_of(scene, s, learned, pass, to - from, path);
         for (std::size_t i = 0; i < found.size(); ++i)
-            parts[i].insert(found[i]);
+            strata[i].insert(found[i]);
     }
     return static_cast<int>(std::ranges::count_if(
-        parts, [&](const std::set<int>& p) { return static_cast<int>(p.size()) == to - from; }));
+        strata, [&](const std::set<int>& s) { return static_cast<int>(s.size()) == to - from; }));
 }
 
-/// The mean of so many renders of one pass each, of other seeds; or one render of as many passes.
+/// Returns the mean of renders with different seeds and so many passes each.
 RgbImage picture(const std::shared_ptr<const Scene>& scene, int passes, int renders, std::uint64_t seed) {
     ThreadPool pool(1);
     RgbImage mean(size.x, size.y);
@@ -110,70 +113,71 @@ TEST(Nets, HaveOnePointInEachRectangleOfAnyShape) {
                 }
 }
 
-TEST(Nets, OfTwoKeysHaveNothingToDoWithEachOther) {
+TEST(Nets, OfTwoKeysAreUncorrelated) {
     constexpr std::uint32_t count = 256;
     for (std::uint64_t key = 0; key < 64; key += 2)
         for (const int digit : {31, 63}) {
-            int alike = 0;
+            int equal_digits = 0;
             for (std::uint32_t i = 0; i < count; ++i)
-                alike += ((net_point(i, key) ^ net_point(i, key + 1)) >> digit & 1) == 0;
-            EXPECT_NEAR(alike, count / 2, 5 * std::sqrt(count) / 2) << "key " << key;
+                equal_digits += ((net_point(i, key) ^ net_point(i, key + 1)) >> digit & 1) == 0;
+            EXPECT_NEAR(equal_digits, count / 2, 5 * std::sqrt(count) / 2) << "key " << key;
         }
 }
 
-TEST(Nets, GoOverPassesUntilThereAreTwiceAsMany) {
+TEST(Nets, SpanPassesBetweenPowersOfTwo) {
     const auto scene = lit_floor();
     for (const Method method : {Method::pt, Method::gpt})
         for (const int path : {0, 3}) {
             LearnedReuse learned(size, settings_of(method));
             learned.take(LearnedReuse(size, settings_of(method)), 4);
-            EXPECT_EQ(learned.first_pass(), 0); // nothing was learnt, as nothing can be
-            EXPECT_EQ(count_even(*scene, settings_of(method), learned, 32, 64, path), all_numbers);
-            EXPECT_LT(count_even(*scene, settings_of(method), learned, 0, 64, path), all_numbers);
+            EXPECT_EQ(learned.first_pass(), 0); // with these settings passes teach nothing
+            EXPECT_EQ(count_stratified(*scene, settings_of(method), learned, 32, 64, path), all_numbers);
+            EXPECT_LT(count_stratified(*scene, settings_of(method), learned, 0, 64, path), all_numbers);
         }
 }
 
-/// So that parts of a picture that are rendered by themselves have the numbers that they have in the whole.
-TEST(Nets, BeginWhetherOrNotThereIsSomethingToLearn) {
+/// A picture is the same with and without guides to learn, as long as these draw nothing.
+TEST(Nets, BeginAtTheSamePassesWithAndWithoutGuides) {
     const auto scene = lit_floor();
     RenderSettings guided = settings_of(Method::pt);
     guided.path_guiding = Guiding::where_it_pays;
-    LearnedReuse learnt(size, guided);
-    learnt.take(LearnedReuse(size, guided), 8);
-    EXPECT_EQ(learnt.first_pass(), 8);
+    LearnedReuse learned(size, guided);
+    learned.take(LearnedReuse(size, guided), 8);
+    EXPECT_EQ(learned.first_pass(), 8);
     for (const int pass : {8, 9, 15})
         EXPECT_EQ(
-            parts_of(*scene, guided, learnt, pass, 4096),
-            parts_of(*scene, settings_of(Method::pt), LearnedReuse(size, settings_of(Method::pt)), pass, 4096));
+            strata_of(*scene, guided, learned, pass, 4096),
+            strata_of(*scene, settings_of(Method::pt), LearnedReuse(size, settings_of(Method::pt)), pass, 4096));
 }
 
-TEST(Nets, AreAnewWherePassesGoByWhatOthersFound) {
+TEST(Nets, BeginAgainAfterLearning) {
     const auto scene = lit_floor();
-    int even_over_both = 0, repeated = 0;
+    int stratified_over_both = 0, repeated = 0;
     for (std::uint64_t seed = 0; seed < 16; ++seed) {
         const RenderSettings s = settings_of(Method::gpr, seed);
-        const LearnedReuse before(size, s); // whose net begins with pass 8
+        const LearnedReuse before(size, s); // its nets begin with pass 8
         LearnedReuse learned(size, s);
-        learned.take(before, 12); // in a render that began with pass 8
+        learned.take(before, 12);
         EXPECT_EQ(learned.first_pass(), 12);
-        EXPECT_EQ(count_even(*scene, s, learned, 12, 16), all_numbers);
-        std::array<std::set<int>, all_numbers> quarters; // all four of one net, if no other had begun
+        EXPECT_EQ(count_stratified(*scene, s, learned, 12, 16), all_numbers);
+        std::array<std::set<int>, all_numbers> quarters; // one net would have all four
         for (const int pass : {12, 13, 14, 15}) {
-            const std::vector<int> found = parts_of(*scene, s, pass < 14 ? before : learned, pass, 4);
+            const std::vector<int> found = strata_of(*scene, s, pass < 14 ? before : learned, pass, 4);
             for (std::size_t i = 0; i < found.size(); ++i)
                 quarters[i].insert(found[i]);
         }
-        const auto first = parts_of(*scene, s, learned, 12, 1024), of_last = parts_of(*scene, s, before, 8, 1024);
+        const auto first = strata_of(*scene, s, learned, 12, 1024),
+                   first_before = strata_of(*scene, s, before, 8, 1024);
         for (std::size_t i = positions; i < all_numbers; ++i) {
-            even_over_both += quarters[i].size() == 4;
-            repeated += first[i] == of_last[i];
+            stratified_over_both += quarters[i].size() == 4;
+            repeated += first[i] == first_before[i];
         }
     }
-    EXPECT_NEAR(even_over_both, 40, 30); // of 160: a quarter, by chance
+    EXPECT_NEAR(stratified_over_both, 40, 30); // of 160; a quarter is expected
     EXPECT_LT(repeated, 5);
 }
 
-TEST(Nets, OfPixelsAndPathsDiffer) {
+TEST(Nets, DifferBetweenPixelsAndPaths) {
     const auto scene = lit_floor();
     const RenderSettings s = settings_of(Method::pt);
     const Pass pass(*scene, scene->camera(), size, s, LearnedReuse(size, s), 3);
@@ -187,7 +191,7 @@ TEST(Nets, OfPixelsAndPathsDiffer) {
     EXPECT_EQ(directions_seen.size(), 60u);
 }
 
-/// A pixel has the same samples in a wider image, so that a crop can be compared with the whole.
+/// A pixel has the same samples in a wider image, so a crop is comparable with the whole.
 TEST(Nets, DoNotDependOnTheSizeOfTheImage) {
     const std::shared_ptr<const Scene> scene = lit_floor();
     const glm::ivec2 wide(size.x + 7, size.y + 3);
@@ -204,8 +208,8 @@ TEST(Nets, DoNotDependOnTheSizeOfTheImage) {
     }
 }
 
-/// What pixels share, and smoothing takes together.
-TEST(Nets, SpareNoiseOfMeansOverPixels) {
+/// Path reuse and filters average over squares of pixels.
+TEST(Nets, ReduceTheNoiseOfMeansOverPixels) {
     const auto scene = lit_floor();
     const auto means = [&](const RgbImage& image) { // of 4x4 pixels
         RgbImage result(size.x, size.y, Rgb(0));
@@ -214,18 +218,18 @@ TEST(Nets, SpareNoiseOfMeansOverPixels) {
                 result(x / 4, y / 4) += image(x, y) / 16.0f;
         return result;
     };
-    double of_pixels = 0, of_means = 0;
+    double pixel_error = 0, mean_error = 0;
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         const RgbImage a = picture(scene, 1, 1, seed), b = picture(scene, 1, 1, 1000 + seed);
-        of_pixels += squared_difference(a, b);
-        of_means += squared_difference(means(a), means(b));
+        pixel_error += squared_difference(a, b);
+        mean_error += squared_difference(means(a), means(b));
     }
-    // Were they independent, means would have a 16th of the variance; and they are a 16th as many. (Squares of 4x4
-    // pixels lie anywhere beside those that are nets.)
-    EXPECT_LT(of_means, 0.75 * of_pixels / (16 * 16));
+    // Means of independent pixels would have a 16th of the variance, and there are a 16th as many. The squares are
+    // not aligned with the blocks of the nets.
+    EXPECT_LT(mean_error, 0.75 * pixel_error / (16 * 16));
 }
 
-TEST(Nets, RendersChangePlansWhenTheyHaveTwiceAsManyPasses) {
+TEST(Nets, RendersLearnAtPowersOfTwo) {
     const auto scene = lit_floor();
     ThreadPool pool(1);
     RenderSettings guided = settings_of(Method::pt);
@@ -239,12 +243,12 @@ TEST(Nets, RendersChangePlansWhenTheyHaveTwiceAsManyPasses) {
     }
 }
 
-TEST(Nets, SpareNoise) {
+TEST(Nets, ReduceNoise) {
     const auto scene = lit_floor();
     constexpr int passes = 32;
-    const double evenly = squared_difference(picture(scene, passes, 1, 0), picture(scene, passes, 1, 1000));
-    const double alone = squared_difference(picture(scene, 1, passes, 0), picture(scene, 1, passes, 1000));
-    EXPECT_LT(evenly, 0.7 * alone);
+    const double stratified = squared_difference(picture(scene, passes, 1, 0), picture(scene, passes, 1, 1000));
+    const double independent = squared_difference(picture(scene, 1, passes, 0), picture(scene, 1, passes, 1000));
+    EXPECT_LT(stratified, 0.7 * independent);
 }
 
 } // namespace tessera::test

@@ -1,3 +1,4 @@
+// Guided directions: their distribution, their pdf, and METHODS (22) and (23).
 #include "render/paths/base_path.h"
 #include "render/paths/offsets.h"
 #include "render/paths/path_guiding.h"
@@ -23,7 +24,7 @@ namespace tessera::test {
 
 namespace {
 
-/// Uneven, with empty bins and one that has nearly all.
+/// Returns uneven shares with empty bins and one bin that has most of the probability.
 DirectionMap::Shares uneven_shares() {
     DirectionMap::Shares shares{};
     float sum = 0;
@@ -61,12 +62,12 @@ TEST(DirectionMap, PdfIntegratesToOneOverTheSphere) {
     EXPECT_NEAR(sum * 4 * static_cast<double>(pi) / (rings * steps), 1, 2e-3);
 }
 
-TEST(DirectionMap, SamplesComeAsOftenAsTheirSharesSayAndKnowTheirPdf) {
+TEST(DirectionMap, SamplesFollowTheSharesAndReturnTheirPdf) {
     const DirectionMap::Shares shares = uneven_shares();
     const DirectionMap map(shares);
     constexpr int samples = 400000;
     std::vector<int> counts(DirectionMap::bins);
-    int moved = 0;
+    int mismatches = 0;
     for (int i = 0; i < samples; ++i) {
         const DirectionMap::Sample s =
             map.sample(numbers(i).draw(0, Draw::lobe), numbers(i).draw_2d(0, Draw::direction));
@@ -74,18 +75,18 @@ TEST(DirectionMap, SamplesComeAsOftenAsTheirSharesSayAndKnowTheirPdf) {
         EXPECT_GT(s.pdf_w, 0);
         const int bin = DirectionMap::bin_of(s.direction);
         ++counts[static_cast<std::size_t>(bin)];
-        moved += std::abs(map.pdf_w(s.direction) - s.pdf_w) > 1e-3f * s.pdf_w;
+        mismatches += std::abs(map.pdf_w(s.direction) - s.pdf_w) > 1e-3f * s.pdf_w;
     }
-    EXPECT_LE(moved, samples / 10000); // at a bin's edge, rounding may move one to the next bin
+    EXPECT_LE(mismatches, samples / 10000); // rounding can change the bin at an edge
     for (std::size_t b = 0; b < counts.size(); ++b) {
         const double expected = samples * static_cast<double>(shares[b]);
         EXPECT_NEAR(counts[b], expected, 5 * std::sqrt(expected) + 30) << b;
     }
 }
 
-/// What a vertex draws, by the pdf that it gives each direction: with every share of a guide the BSDF integrates
-/// to the same, and all who ask for a pdf are told the one that directions are drawn by.
-TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
+/// The estimate of the BSDF's integral is the same for every share, and all functions that return a pdf return
+/// the pdf of the sampling.
+TEST(GuidedVertex, SamplesFollowTheirPdfWithAnyShare) {
     const auto diffuse = shared(DiffuseMaterial{Texture(Rgb(0.7f))}), mirror = shared(copper(0));
     const Bsdf bsdfs[] = {resolved(DiffuseMaterial{Texture(Rgb(0.7f))}), resolved(copper(0.3f)),
                           resolved(blend(diffuse, mirror, 0.4f))};
@@ -101,17 +102,17 @@ TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
             x.to_previous = glm::normalize(glm::vec3(0.4f, -0.2f, 0.9f));
             x.guide = share > 0 ? &guide : nullptr;
             double sum = 0;
-            int moved = 0;
+            int mismatches = 0;
             for (int i = 0; i < samples; ++i) {
                 const auto s = x.sample(numbers(i).draw(0, Draw::lobe), numbers(i).draw_2d(0, Draw::direction));
                 if (!s)
                     continue;
                 sum += static_cast<double>(s->f_cos.g / s->pdf_w) / samples;
-                const float told =
+                const float evaluated =
                     s->is_delta ? x.evaluate_delta(s->scatter).probability : x.evaluate(s->to_next).pdf_w;
-                moved += std::abs(told - s->pdf_w) > 2e-3f * s->pdf_w;
+                mismatches += std::abs(evaluated - s->pdf_w) > 2e-3f * s->pdf_w;
             }
-            EXPECT_LE(moved, samples / 1000) << share; // at a bin's edge, rounding may move one to the next bin
+            EXPECT_LE(mismatches, samples / 1000) << share; // rounding can change the bin at an edge
             unguided = share > 0 ? unguided : sum;
             EXPECT_NEAR(sum / unguided, 1, 0.01) << share;
 
@@ -122,11 +123,11 @@ TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
             Vec3Lanes direction, from;
             direction.set(0, x.to_world(to_next));
             from.set(0, x.to_previous);
-            LaneMask asked;
-            asked[0] = -1;
+            LaneMask active;
+            active[0] = -1;
             BsdfLanes as_offset, from_elsewhere;
-            y.evaluate(direction, asked, as_offset);
-            evaluate(x, from, to_next, asked, 1, from_elsewhere);
+            y.evaluate(direction, active, as_offset);
+            evaluate(x, from, to_next, active, 1, from_elsewhere);
             const float pdf_w = x.evaluate(to_next).pdf_w;
             EXPECT_NEAR(as_offset.pdf_w[0] / pdf_w, 1, 1e-4) << share;
             EXPECT_NEAR(from_elsewhere.pdf_w[0] / pdf_w, 1, 1e-4) << share;
@@ -134,8 +135,9 @@ TEST(GuidedVertex, DrawsAsItSaysAndMissesNothing) {
     }
 }
 
-/// Fewer of a mirror's directions are drawn where there is a guide; of these more go on, as far as there are more.
-TEST(GuidedVertex, MirrorsBesideRoughLobesGoOnAsOftenAsWithoutAGuide) {
+/// A guide makes delta scatters less likely. Their survival of the roulette rises by the inverse factor, up to the
+/// largest probability.
+TEST(GuidedVertex, DeltaScattersContinueAsOftenAsUnguided) {
     SceneBuilder b;
     const int wall = b.diffuse(white), half = b.blend(wall, b.mirror(), 0.5f);
     b.room({half, half, half, half, half});
@@ -145,7 +147,7 @@ TEST(GuidedVertex, MirrorsBesideRoughLobesGoOnAsOftenAsWithoutAGuide) {
     const PathGuiding everywhere({glm::ivec3(1), glm::vec3(0), 1}, std::vector<int>(GuidingGrid::sides, 0),
                                  {{DirectionMap(uneven_shares()), share}}, 1);
     const Projection projection(scene->camera(), {64, 64});
-    const auto survivals = [&](const PathGuiding* guiding) { // of mirrored paths at x_2
+    const auto survivals = [&](const PathGuiding* guiding) { // of delta scatters at x_2
         Counters counters;
         PathSettings settings;
         settings.roulette_depth = 1;
@@ -167,18 +169,18 @@ TEST(GuidedVertex, MirrorsBesideRoughLobesGoOnAsOftenAsWithoutAGuide) {
         EXPECT_NEAR(survival, std::min(without.front() / (1 - share), 0.95f), 1e-5);
 }
 
-TEST(ShareCandidates, OfDeltaScattersGrowAsTheyAreDrawnLessOften) {
+TEST(ShareCandidates, CountDeltaScattersByTheirProbability) {
     const float chance = 0.4f, used = 0.5f;
     const ShareCandidates squares = second_moments(3, (1 - used) * chance, 0, used);
-    // A value is 3 (1 - used) / (1 - share), and as much less often drawn.
+    // With another share t the value is 3 (1 - used) / (1 - t), and the probability changes by the inverse factor.
     for (std::size_t s = 0; s < share_candidates.size(); ++s)
         EXPECT_NEAR(squares[s], 9 * (1 - used) / (1 - share_candidates[s]), 1e-4) << share_candidates[s];
 }
 
-TEST(ShareCandidates, TellTheSecondMomentsOfOtherShares) {
+TEST(ShareCandidates, EstimateSecondMomentsOfOtherShares) {
     const DirectionMap map(uneven_shares());
     const auto pdf_with = [&](float share, glm::vec3 d) { return (1 - share) / (4 * pi) + share * map.pdf_w(d); };
-    const auto found_at = [](glm::vec3 d) { return 0.2f + std::max(d.z, 0.0f) * std::max(d.x, 0.0f); };
+    const auto integrand = [](glm::vec3 d) { return 0.2f + std::max(d.z, 0.0f) * std::max(d.x, 0.0f); };
     const auto drawn_with = [&](float share, int i) {
         const Random random = numbers(i);
         const float lobe = random.draw(0, Draw::lobe);
@@ -187,28 +189,29 @@ TEST(ShareCandidates, TellTheSecondMomentsOfOtherShares) {
     };
     constexpr int samples = 200000;
     for (const float used : {0.0f, 0.5f, 0.75f}) {
-        std::array<double, share_candidates.size()> told{};
+        std::array<double, share_candidates.size()> estimates{};
         for (int i = 0; i < samples; ++i) {
             const glm::vec3 d = drawn_with(used, i);
             const float pdf_w = pdf_with(used, d);
-            const ShareCandidates squares = second_moments(found_at(d) / pdf_w, pdf_w, map.pdf_w(d), used);
+            const ShareCandidates squares = second_moments(integrand(d) / pdf_w, pdf_w, map.pdf_w(d), used);
             for (std::size_t s = 0; s < squares.size(); ++s)
-                told[s] += static_cast<double>(squares[s]) / samples;
+                estimates[s] += static_cast<double>(squares[s]) / samples;
         }
         for (std::size_t s = 0; s < share_candidates.size(); ++s) {
             double moment = 0;
             for (int i = 0; i < samples; ++i) {
                 const glm::vec3 d = drawn_with(share_candidates[s], samples + i);
                 moment +=
-                    std::pow(static_cast<double>(found_at(d) / pdf_with(share_candidates[s], d)), 2) / samples;
+                    std::pow(static_cast<double>(integrand(d) / pdf_with(share_candidates[s], d)), 2) / samples;
             }
-            EXPECT_NEAR(told[s] / moment, 1, 0.05) << "share " << share_candidates[s] << " by " << used;
+            EXPECT_NEAR(estimates[s] / moment, 1, 0.05)
+                << "share " << share_candidates[s] << " from samples with share " << used;
         }
     }
 }
 
-/// Where half of the light goes on as in a mirror, guided directions take paths away from that.
-TEST(PathGuiding, LeavesMirrorsBesideRoughLobesTheirPaths) {
+/// Guided directions take samples from the delta lobe of a blend. This must not raise the variance by much.
+TEST(PathGuiding, HardlyRaisesTheVarianceOfMirrorBlends) {
     SceneBuilder b;
     const int wall = b.diffuse(white), half = b.blend(wall, b.mirror(), 0.5f), lamp = b.light(Rgb(5, 4, 3));
     b.room({half, wall, half, wall, wall});

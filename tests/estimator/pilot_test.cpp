@@ -1,4 +1,5 @@
-// What the pilot tells of a cell. (That it is no bias: the judge. What is made of it: learned_reuse_test.)
+// Statistics that the pilot pass measures. learned_reuse_test.cpp tests their use, judge_test.cpp that they add no
+// bias.
 #include "render/estimator/pilot.h"
 #include "tests/support/scene_builder.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr glm::ivec2 size(16, 16);
 
-/// A floor and a wall, under a sky that is bright on one side, and so noisy.
+/// Returns a scene of a floor and a wall under a sky with one bright pixel, so that samples are noisy.
 std::shared_ptr<const Scene> corner(float brightness) {
     SceneBuilder b;
     b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.diffuse(Rgb(0.5f)));
@@ -36,7 +37,7 @@ CellStatistics explore(const Scene& scene, PixelRect cell) {
 
 } // namespace
 
-TEST(Pilot, TellsOfEachSetByTheRootOfItsNoise) {
+TEST(Pilot, WeightsSetsByTheRootOfTheirNoise) {
     const auto scene = corner(1);
     const CellStatistics whole = explore(*scene, {0, 0, 16, 16}), left = explore(*scene, {0, 0, 8, 16}),
                          right = explore(*scene, {8, 0, 16, 16}), brighter = explore(*corner(4), {0, 0, 16, 16});

@@ -1,4 +1,4 @@
-// What pixels show: features followed through mirrors, as well known as they need to be.
+// Feature samples of pixels: they follow mirrors, and their number depends on how features vary.
 #include "render/film/pixel_features.h"
 #include "render/run/render.h"
 #include "tests/support/scene_builder.h"
@@ -11,7 +11,8 @@
 namespace tessera::test {
 namespace {
 
-/// A mirror three units ahead of the camera shows a wall two units behind it; around the mirror there is nothing.
+/// Returns a scene in which a mirror, 3 units in front of the camera, shows a wall 2 units behind it. Pixels
+/// beside the mirror see nothing.
 std::shared_ptr<const Scene> room() {
     SceneBuilder scene;
     const int wall = scene.diffuse({0.6f, 0.3f, 0.1f});
@@ -21,7 +22,7 @@ std::shared_ptr<const Scene> room() {
     return scene.build();
 }
 
-TEST(PixelFeatures, AMirrorShowsWhatIsSeenInIt) {
+TEST(PixelFeatures, FollowMirrors) {
     for (const Method method : all_methods) {
         const auto scene = room();
         RenderSettings settings;
@@ -32,41 +33,42 @@ TEST(PixelFeatures, AMirrorShowsWhatIsSeenInIt) {
         render.pass(pool);
         const GradientImages images = render.images();
         const FeatureImages& features = images.features;
-        // The mirror takes a little of each colour.
+        // The mirror absorbs a little of each colour.
         EXPECT_LT(glm::distance(features.albedo(16, 16), Rgb(0.6f, 0.3f, 0.1f)), 0.1f) << short_name(method);
         if (is_demodulated(settings)) {
             EXPECT_LT(glm::distance(features.albedo(16, 16), images.demodulation.albedo(16, 16)), 1e-6f);
             EXPECT_LT(glm::distance(features.albedo(16, 16), images.demodulation.sampled_albedo(16, 16)), 1e-6f);
         }
         EXPECT_NEAR(features.normal(16, 16).z, -1, 1e-4f);
-        EXPECT_NEAR(features.nearness(16, 16), 1 / 8.0f, 1e-3f); // three there and five back
-        EXPECT_NEAR(features.roughness(16, 16), 1, 1e-4f);       // the wall's
-        EXPECT_LT(glm::distance(features.albedo(0, 0), Rgb(1)), 1e-6f) << "beside the mirror there is nothing";
+        EXPECT_NEAR(features.nearness(16, 16), 1 / 8.0f, 1e-3f); // 3 to the mirror, 5 to the wall
+        EXPECT_NEAR(features.roughness(16, 16), 1, 1e-4f);       // of the wall
+        EXPECT_LT(glm::distance(features.albedo(0, 0), Rgb(1)), 1e-6f) << "a pixel beside the mirror sees nothing";
         EXPECT_EQ(features.normal(0, 0), Rgb(0));
         EXPECT_EQ(features.nearness(0, 0), 0);
     }
 }
 
-/// The room, its wall now in squares of two colours, evenly lit; in front of the mirror, if it is masked, a
-/// surface that few rays meet.
-GradientImages squares_in_a_mirror(bool is_masked, float many = 40, TextureFilter filter = TextureFilter::off,
-                                   Method method = Method::gpr) {
+/// Renders one pass of the same scene with an evenly lit checkerboard on the wall. With `is_masked`, a mask that
+/// few rays hit is in front of the mirror.
+/// @param squares  of the checkerboard along each axis
+GradientImages checkerboard_in_a_mirror(bool is_masked, float squares = 40,
+                                        TextureFilter filter = TextureFilter::off, Method method = Method::gpr) {
     SceneBuilder scene;
-    DiffuseMaterial squares;
-    squares.reflectance.kind = CheckerboardTexture{Rgb(0.8f), Rgb(0.1f)};
-    squares.reflectance.to_uv = glm::mat3(many, 0, 0, 0, many, 0, 0, 0, 1);
+    DiffuseMaterial checker;
+    checker.reflectance.kind = CheckerboardTexture{Rgb(0.8f), Rgb(0.1f)};
+    checker.reflectance.to_uv = glm::mat3(squares, 0, 0, 0, squares, 0, 0, 0, 1);
     scene.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, scene.mirror());
-    scene.quad({-20, -20, 5}, {0, 40, 0}, {40, 0, 0}, scene.material({"squares", squares}));
+    scene.quad({-20, -20, 5}, {0, 40, 0}, {40, 0, 0}, scene.material({"checker", checker}));
     Material mask;
     mask.opacity = Texture(Rgb(1e-3f));
     if (is_masked)
         scene.quad({-1, -1, 4}, {0, 2, 0}, {2, 0, 0}, scene.material(mask));
-    scene.directional({{0.6f, 0, -0.8f}, Rgb(1)}); // the mirror's shadow is beside what it shows
+    scene.directional({{0.6f, 0, -0.8f}, Rgb(1)}); // the shadow of the mirror is not visible in it
     scene.camera({0, 0, 3}, {0, 0, 0}, 30);
     RenderSettings settings;
     settings.method = method;
     settings.filter_textures = filter;
-    settings.max_depth = 3; // no light of the wall comes back to it
+    settings.max_depth = 3; // no interreflection
     const auto built = scene.build();
     Render render(built, built->camera(), {33, 33}, settings);
     ThreadPool pool(1);
@@ -74,9 +76,9 @@ GradientImages squares_in_a_mirror(bool is_masked, float many = 40, TextureFilte
     return render.images();
 }
 
-/// What mirrors show is divided by its albedo, so that light is as smooth in them as where it is seen directly;
-/// where they show one thing to one ray and another to the next, by theirs.
-TEST(PixelFeatures, LightInAMirrorIsOverTheAlbedoOfWhatItShows) {
+/// Radiance in a mirror is divided by the albedo of the mirrored surface, so the coefficient is as smooth as where
+/// the surface is seen directly. In scenes with masks, it is divided by the mirror's own albedo.
+TEST(PixelFeatures, DivideMirroredLightByTheAlbedoBehindTheMirror) {
     const auto variation = [](const RgbImage& image) {
         double sum = 0, squares = 0;
         for (Rgb c : image) {
@@ -85,29 +87,29 @@ TEST(PixelFeatures, LightInAMirrorIsOverTheAlbedoOfWhatItShows) {
         }
         return squares * static_cast<double>(image.size()) / (sum * sum) - 1;
     };
-    const GradientImages clear = squares_in_a_mirror(false), masked = squares_in_a_mirror(true);
+    const GradientImages clear = checkerboard_in_a_mirror(false), masked = checkerboard_in_a_mirror(true);
     EXPECT_LT(variation(clear.primal), 1e-5);
     EXPECT_GT(variation(clear.radiance()), 0.1);
     EXPECT_GT(variation(masked.primal), 0.1);
 }
 
-/// Where light is divided by the albedo of what a mirror shows, textures there are filtered as little as at x_1.
-/// The feature samples of methods without see squares much smaller than a pixel in one colour.
-TEST(PixelFeatures, SeeInMirrorsWhatPathsSee) {
-    const Demodulation plain = squares_in_a_mirror(false).demodulation;
+/// With demodulation, textures in mirrors are not filtered, as those at x_1. PT has no demodulation: its feature
+/// samples see the mean colour of squares much smaller than a pixel.
+TEST(PixelFeatures, FilterTexturesInMirrorsAsPathsDo) {
+    const Demodulation plain = checkerboard_in_a_mirror(false).demodulation;
     for (const TextureFilter filter : {TextureFilter::camera, TextureFilter::path}) {
-        const Demodulation known = squares_in_a_mirror(false, 40, filter).demodulation;
-        const FeatureImages of_pt = squares_in_a_mirror(false, 20000, filter, Method::pt).features;
+        const Demodulation filtered = checkerboard_in_a_mirror(false, 40, filter).demodulation;
+        const FeatureImages of_pt = checkerboard_in_a_mirror(false, 20000, filter, Method::pt).features;
         for (int x = 12; x < 21; ++x) {
-            EXPECT_EQ(known.sampled_albedo(x, 16), plain.sampled_albedo(x, 16));
-            EXPECT_EQ(known.albedo(x, 16), plain.albedo(x, 16));
+            EXPECT_EQ(filtered.sampled_albedo(x, 16), plain.sampled_albedo(x, 16));
+            EXPECT_EQ(filtered.albedo(x, 16), plain.albedo(x, 16));
             EXPECT_NEAR(of_pt.albedo(x, 16).g, 0.45f, 0.02f);
         }
     }
 }
 
-/// Between two mirrors that face each other, ten of them before a wall.
-TEST(PixelFeatures, AlbedosAreFollowedAsFarAsPaths) {
+/// Two mirrors that face each other: rays to the wall are reflected ten times.
+TEST(PixelFeatures, FollowMirrorsToTheDepthOfPaths) {
     SceneBuilder scene;
     const int mirror = scene.mirror();
     scene.quad({1, -1, 0}, {0, 2, 0}, {0, 0, -20}, mirror);
@@ -122,21 +124,21 @@ TEST(PixelFeatures, AlbedosAreFollowedAsFarAsPaths) {
         Render render(built, built->camera(), {5, 5}, settings);
         ThreadPool pool(1);
         render.pass(pool);
-        const Demodulation known = render.images().demodulation;
-        EXPECT_EQ(known.albedo(2, 2), known.sampled_albedo(2, 2));
-        EXPECT_EQ(known.albedo(2, 2).r > 0.01f, depth == 14) << "whether paths reach the wall";
+        const Demodulation d = render.images().demodulation;
+        EXPECT_EQ(d.albedo(2, 2), d.sampled_albedo(2, 2));
+        EXPECT_EQ(d.albedo(2, 2).r > 0.01f, depth == 14) << "only paths of depth 14 reach the wall";
     }
 }
 
-/// Pixels that see one thing need few feature samples, those at an edge more.
-TEST(PixelFeatures, AreManyWherePixelsSeeMoreThanOneThing) {
+/// Pixels that see one surface need few feature samples, and pixels at an edge more.
+TEST(PixelFeatures, TakeMoreSamplesWherePixelsSeeSeveralSurfaces) {
     PixelFeatures features(9, 9, true);
     const auto pass = [&](int index) {
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < 9; ++x)
-                for (int more = features.wanted(x, y); more > 0; --more) {
-                    const bool other = x > 4 || (x == 4 && features.count(x, y) % 2 == 0);
-                    features.add(x, y, {Rgb(0.5f), {Rgb(0.5f), other ? Rgb(0, 0, 1) : Rgb(1, 0, 0), 1}});
+                for (int wanted = features.wanted(x, y); wanted > 0; --wanted) {
+                    const bool is_right = x > 4 || (x == 4 && features.count(x, y) % 2 == 0);
+                    features.add(x, y, {Rgb(0.5f), {Rgb(0.5f), is_right ? Rgb(0, 0, 1) : Rgb(1, 0, 0), 1}});
                 }
         features.request_more(index + 1);
     };

@@ -1,4 +1,4 @@
-// Pixels that see several things, and the positions from which a pass sees them. (That it is no bias: the judge.)
+// Mixed pixels, and the camera positions from which a pass sees them. judge_test.cpp shows that they add no bias.
 #include "render/estimator/pass.h"
 #include "render/estimator/set_reuse.h"
 #include "render/run/render.h"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr glm::ivec2 size(32, 24);
 
-/// A grey wall under an even sky, and before it a white pole thinner than a pixel.
+/// Returns a scene of a grey wall under a uniform sky, with a white pole in front that is thinner than a pixel.
 std::shared_ptr<const Scene> pole_before_a_wall(float aperture_radius = 0) {
     SceneBuilder b;
     b.quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.diffuse(Rgb(0.1f)));
@@ -42,7 +42,7 @@ RenderSettings settings_of(bool edge_rays, std::uint64_t seed = 0) {
     return s;
 }
 
-/// As a render finds them before its first pass.
+/// Returns 1 for the mixed pixels that a render finds before its first pass.
 std::shared_ptr<const Image<std::uint8_t>> mixed_pixels(const std::shared_ptr<const Scene>& scene,
                                                         const RenderSettings& settings) {
     Render render(scene, scene->camera(), size, settings);
@@ -59,10 +59,10 @@ RgbImage picture(const std::shared_ptr<const Scene>& scene, const RenderSettings
     return render.images().demodulation.value;
 }
 
-/// Of pictures of one pass, over all pixels that are mixed, and how far their mean is from the truth in standard
-/// deviations.
+/// Errors of pictures of one pass in all mixed pixels.
 struct Errors {
-    double squared = 0, z = 0;
+    double squared = 0; ///< sum of squares
+    double z = 0;       ///< bias of the mean over these pixels, in standard errors
 };
 Errors errors(const std::shared_ptr<const Scene>& scene, RenderSettings s, const RgbImage& truth,
               const Image<std::uint8_t>& mixed) {
@@ -72,15 +72,15 @@ Errors errors(const std::shared_ptr<const Scene>& scene, RenderSettings s, const
     for (int i = 1; i <= renders; ++i) {
         s.seed = static_cast<std::uint64_t>(i);
         const RgbImage image = picture(scene, s, 1);
-        double light = 0;
+        double error = 0;
         for (std::size_t p = 0; p < image.size(); ++p)
             if (mixed.data()[p]) {
                 const double d = luminance(image.data()[p]) - luminance(truth.data()[p]);
                 result.squared += d * d;
-                light += d;
+                error += d;
             }
-        sum += light;
-        squares += light * light;
+        sum += error;
+        squares += error * error;
     }
     result.z = sum / std::sqrt(squares);
     return result;
@@ -88,37 +88,37 @@ Errors errors(const std::shared_ptr<const Scene>& scene, RenderSettings s, const
 
 } // namespace
 
-TEST(Positions, AreSeveralWherePixelsSeeSeveralThings) {
+TEST(Positions, MixedPixelsAreThoseAtThePole) {
     const auto scene = pole_before_a_wall();
     const auto mixed = mixed_pixels(scene, settings_of(true));
-    int column = 0; // of the pole
+    int count = 0;
     for (int x = 0; x < size.x; ++x)
         for (int y = 0; y < size.y; ++y)
             if ((*mixed)(x, y)) {
                 EXPECT_NEAR(x, 17, 1.5) << y;
-                ++column;
+                ++count;
             }
-    EXPECT_GE(column, 2 * size.y);
+    EXPECT_GE(count, 2 * size.y);
 }
 
-TEST(Positions, HaveEachBasePathAtOneOfThem) {
+TEST(Positions, TurnsAreUniformAndDifferInARow) {
     for (const int count : {1, 2, 3, 4, 7, 8, 16}) {
         std::map<int, int> turns_of_a_pixel;
         for (int index = 0; index < 4000; ++index) {
             const PassNumbers numbers(3, index, 0, count);
-            std::set<int> side_by_side;
+            std::set<int> turns_of_a_row;
             for (int x = 0; x < count; ++x)
-                side_by_side.insert(numbers.turn({x, 5}));
-            ASSERT_EQ(side_by_side.size(), static_cast<std::size_t>(count));
+                turns_of_a_row.insert(numbers.turn({x, 5}));
+            ASSERT_EQ(turns_of_a_row.size(), static_cast<std::size_t>(count));
             ++turns_of_a_pixel[numbers.turn({5, 7})];
         }
-        for (int turn = 0; turn < count; ++turn) // 5 standard deviations at least
+        for (int turn = 0; turn < count; ++turn) // at least 5 standard deviations
             EXPECT_NEAR(turns_of_a_pixel[turn], 4000.0 / count, 5 * 32) << count << " positions, " << turn;
     }
 }
 
 TEST(Positions, AreANetOverThePasses) {
-    // Of 16 passes of four positions, each of 64 columns and rows has one.
+    // 16 passes of 4 positions have one position in each of 64 columns and rows.
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         std::set<int> columns, rows;
         for (int index = 0; index < 16; ++index) {
@@ -134,7 +134,7 @@ TEST(Positions, AreANetOverThePasses) {
     }
 }
 
-TEST(Positions, SpareNoiseWherePixelsSeeSeveralThings) {
+TEST(Positions, ReduceTheNoiseOfMixedPixels) {
     for (const Method method : {Method::pr, Method::gpr}) {
         const auto scene = pole_before_a_wall();
         RenderSettings s = settings_of(false);
@@ -150,9 +150,9 @@ TEST(Positions, SpareNoiseWherePixelsSeeSeveralThings) {
     }
 }
 
-/// However many pixels of a set have their turn at one: else light would differ from position to position, and so
-/// go with the albedo there.
-TEST(Positions, HaveAsManyBasePathsEach) {
+/// METHODS (20): the factors g make the counts of base paths equal, however many pixels of the set have their turn
+/// at a position.
+TEST(Positions, CountEqualNumbersOfBasePaths) {
     const auto scene = pole_before_a_wall();
     const RenderSettings s = settings_of(true);
     LearnedReuse learned(size, s);
@@ -177,7 +177,7 @@ TEST(Positions, HaveAsManyBasePathsEach) {
     }
 }
 
-TEST(Positions, GoThroughPointsOfTheLensOfTheirOwn) {
+TEST(Positions, HaveTheirOwnLensPoints) {
     const auto scene = pole_before_a_wall(0.5f);
     const RenderSettings s = settings_of(true);
     const LearnedReuse learned(size, s);

@@ -1,4 +1,4 @@
-// The maps of how sharing went, from a pixel's counts.
+// Maps of the outcomes of shifts, from the counts of pixels.
 #include "render/film/film.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@ namespace tessera::test {
 
 namespace {
 
-/// A pixel to which 20 shifts were tried in two passes, and one that nobody shared with.
+/// Returns maps of a pixel that was the target of 20 shifts in two passes, and of one that was the target of none.
 ReuseMaps two_pixels() {
     Film film(2, 1, {.reuse = true});
     Counters counters;
@@ -19,17 +19,17 @@ ReuseMaps two_pixels() {
     return film.reuse_maps(2);
 }
 
-TEST(ReuseMaps, OfCountsByHand) {
+TEST(ReuseMaps, AreMeansOfCounts) {
     const ReuseMaps maps = two_pixels();
-    EXPECT_FLOAT_EQ(maps.reused()(0, 0), 6.5f); // a pass
+    EXPECT_FLOAT_EQ(maps.reused()(0, 0), 6.5f); // in each pass
     EXPECT_FLOAT_EQ(maps.failed()(0, 0), 0.35f);
     EXPECT_FLOAT_EQ(maps.survival()(0, 0), 0.75f);
-    const float shares[] = {0.65f, 0.15f, 0.05f, 0.05f, 0.05f, 0.05f};
+    const float fractions[] = {0.65f, 0.15f, 0.05f, 0.05f, 0.05f, 0.05f};
     for (int i = 0; i < shift_outcome_count; ++i)
-        EXPECT_FLOAT_EQ(maps.share(static_cast<ShiftOutcome>(i))(0, 0), shares[i]);
+        EXPECT_FLOAT_EQ(maps.share(static_cast<ShiftOutcome>(i))(0, 0), fractions[i]);
 }
 
-TEST(ReuseMaps, SharesAddUpToOneAndThoseThatFailToTheFailed) {
+TEST(ReuseMaps, FractionsSumToOneAndFailuresToFailed) {
     const ReuseMaps maps = two_pixels();
     float failed = 0;
     for (int i = 1; i < shift_outcome_count; ++i)
@@ -38,7 +38,7 @@ TEST(ReuseMaps, SharesAddUpToOneAndThoseThatFailToTheFailed) {
     EXPECT_FLOAT_EQ(failed + maps.share(ShiftOutcome::ok)(0, 0), 1);
 }
 
-TEST(ReuseMaps, WithoutShiftsAllSharesAreZero) {
+TEST(ReuseMaps, AreZeroWithoutShifts) {
     const ReuseMaps maps = two_pixels();
     for (int i = 0; i < shift_outcome_count; ++i)
         EXPECT_EQ(maps.share(static_cast<ShiftOutcome>(i))(1, 0), 0);

@@ -1,4 +1,4 @@
-// The roulette that decides on reuse, on base paths made by hand.
+// Russian roulette on reuse, for base paths made by hand.
 #include "render/estimator/path_reuse.h"
 #include "render/estimator/reuse_roulette.h"
 #include "tests/support/rooms.h"
@@ -16,7 +16,7 @@ namespace tessera::test {
 
 namespace {
 
-/// A base path whose light is given; direct light is a quarter of it.
+/// Returns a base path of one vertex with this radiance, a quarter of it direct.
 BasePath path_with(Rgb light, float albedo) {
     BasePath path;
     path.reset(Random(0, 0, 0));
@@ -28,12 +28,13 @@ BasePath path_with(Rgb light, float albedo) {
     return path;
 }
 
-/// Of base paths with this light, all of which begin on surfaces of one albedo.
+/// The roulette of a set of base paths with these radiances, on surfaces of one albedo.
 class Roulette {
 public:
-    Roulette(const RenderSettings& settings, const std::vector<float>& light, float scale = 1, float albedo = 0.5f)
+    Roulette(const RenderSettings& settings, const std::vector<float>& radiances, float scale = 1,
+             float albedo = 0.5f)
         : settings_(settings), albedo_(albedo) {
-        for (const float l : light)
+        for (const float l : radiances)
             paths_.push_back(path_with(Rgb(l * scale), albedo));
     }
 
@@ -60,10 +61,10 @@ RenderSettings settings_of(RouletteKind kind) {
     return s;
 }
 
-const std::vector<float> lit_in_part = {0, 0, 0, 8, 1, 0.1f, 0, 3};
+const std::vector<float> partly_lit = {0, 0, 0, 8, 1, 0.1f, 0, 3};
 
-TEST(ReuseRoulette, WithoutOneEveryPathSurvives) {
-    const Roulette roulette(settings_of(RouletteKind::none), lit_in_part);
+TEST(ReuseRoulette, NoneKeepsEveryPath) {
+    const Roulette roulette(settings_of(RouletteKind::none), partly_lit);
     for (const float l : {0.0f, 1e-30f, 0.5f, 1e30f})
         EXPECT_EQ(roulette.survival(Rgb(l)), 1);
 }
@@ -72,52 +73,53 @@ TEST(ReuseRoulette, AbsoluteIsLuminanceOverDelta) {
     RenderSettings s = settings_of(RouletteKind::absolute);
     for (const float delta : {0.1f, 3.0f}) {
         s.rr_delta = delta;
-        const Roulette roulette(s, lit_in_part);
+        const Roulette roulette(s, partly_lit);
         for (const Rgb light : {Rgb(0), Rgb(1e-3f), Rgb(0.03f), Rgb(0.1f, 0, 0), Rgb(0, 0, 2), Rgb(1), Rgb(1e6f)})
             EXPECT_FLOAT_EQ(roulette.survival(light),
                             std::clamp(luminance(light) / delta, ReuseRoulette::q_min, 1.0f));
     }
 }
 
-TEST(ReuseRoulette, RelativeIsLuminanceOverTheNoiseOfTheSet) {
+TEST(ReuseRoulette, RelativeIsLuminanceOverTheDeviationOfTheSet) {
     RenderSettings s = settings_of(RouletteKind::relative);
     double sum = 0, squares = 0;
-    for (const double l : lit_in_part) {
+    for (const double l : partly_lit) {
         sum += l;
         squares += l * l;
     }
     const double deviation = std::sqrt(squares / 8 - sum * sum / 64);
-    const Roulette roulette(s, lit_in_part);
+    const Roulette roulette(s, partly_lit);
     EXPECT_NEAR(roulette.survival(Rgb(0.9f)), 0.9 / deviation, 1e-5);
     EXPECT_EQ(roulette.survival(Rgb(0.01f)), ReuseRoulette::q_min);
     EXPECT_EQ(roulette.survival(Rgb(8)), 1);
-    // Reconnection leaves direct light where it is.
+    // ShiftKind::reconnection does not shift direct light.
     s.shift = ShiftKind::reconnection;
     BasePath indirect = path_with(Rgb(0.9f), 0.5f);
     indirect.indirect = std::exchange(indirect.direct, Rgb(0)) + indirect.indirect;
-    EXPECT_NEAR(Roulette(s, lit_in_part).survival(indirect), 0.9 / (0.75 * deviation), 1e-5);
+    EXPECT_NEAR(Roulette(s, partly_lit).survival(indirect), 0.9 / (0.75 * deviation), 1e-5);
 }
 
-TEST(ReuseRoulette, RelativeKeepsAllOfASetThatIsLitEvenly) {
+TEST(ReuseRoulette, RelativeKeepsAllPathsOfAnEvenlyLitSet) {
     const Roulette roulette(settings_of(RouletteKind::relative), {1, 1.01f, 0.99f, 1});
     EXPECT_EQ(roulette.survival(Rgb(0.99f)), 1);
 }
 
-TEST(ReuseRoulette, TheUnitOfLightDoesNotMatter) {
+TEST(ReuseRoulette, RelativeIsIndependentOfTheUnitOfRadiance) {
     const RenderSettings s = settings_of(RouletteKind::relative);
-    const Roulette roulette(s, lit_in_part);
+    const Roulette roulette(s, partly_lit);
     for (const float scale : {1e-25f, 1e-3f, 1e3f, 1e25f})
         for (const float l : {0.3f, 1.0f, 2.0f, 5.0f})
-            EXPECT_FLOAT_EQ(Roulette(s, lit_in_part, scale).survival(Rgb(l * scale)), roulette.survival(Rgb(l)));
+            EXPECT_FLOAT_EQ(Roulette(s, partly_lit, scale).survival(Rgb(l * scale)), roulette.survival(Rgb(l)));
 }
 
-/// As much light arrives at a dark texel as at a bright one, and it is worth as much to all others.
-TEST(ReuseRoulette, RelativeJudgesTheLightThatArrives) {
-    const Roulette roulette(settings_of(RouletteKind::relative), lit_in_part, 1, 0.8f);
+/// The relative roulette uses radiance over albedo: a dark and a bright texel with the same arriving light survive
+/// with the same probability.
+TEST(ReuseRoulette, RelativeUsesArrivingLight) {
+    const Roulette roulette(settings_of(RouletteKind::relative), partly_lit, 1, 0.8f);
     for (const float l : {0.3f, 1.0f, 2.0f})
         EXPECT_FLOAT_EQ(roulette.survival(path_with(Rgb(l * 0.02f), 0.8f * 0.02f)), roulette.survival(Rgb(l)));
-    // Published is the radiance that leaves.
-    const Roulette absolute(settings_of(RouletteKind::absolute), lit_in_part, 1, 0.8f);
+    // The absolute roulette uses the radiance that leaves x_1 [Bauszat 2017].
+    const Roulette absolute(settings_of(RouletteKind::absolute), partly_lit, 1, 0.8f);
     EXPECT_FLOAT_EQ(absolute.survival(path_with(Rgb(0.05f), 0.016f)),
                     absolute.survival(path_with(Rgb(0.05f), 0.8f)));
 }

@@ -1,4 +1,4 @@
-// The table that command line, panel and files are made from.
+// The table from which the command line, the panel and files get the settings.
 #include "recon/enumeration.h"
 #include "render/settings/settings_table.h"
 #include "render/trace/rays.h"
@@ -18,7 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string refusal(const Setting& setting, std::string_view text) {
+/// Returns the message of the rejection of a text; empty: it was accepted.
+std::string rejection(const Setting& setting, std::string_view text) {
     const std::string before = setting.text();
     try {
         setting.set_text(text);
@@ -29,12 +30,12 @@ std::string refusal(const Setting& setting, std::string_view text) {
     return "";
 }
 
-std::string refusal(std::string_view id, std::string_view text) {
+std::string rejection(std::string_view id, std::string_view text) {
     RenderSettings settings;
-    return refusal(setting_named(settings_of(settings), id), text);
+    return rejection(setting_named(settings_of(settings), id), text);
 }
 
-/// Choices are by position: one for each value, and none too many.
+/// Choices are matched to values by position.
 TEST(SettingsTable, HasAChoiceForEachValue) {
     RenderSettings settings;
     const auto choices = [&](std::string_view id) {
@@ -45,13 +46,13 @@ TEST(SettingsTable, HasAChoiceForEachValue) {
     EXPECT_EQ(choices("roulette"), enumerator_count<RouletteKind>);
 }
 
-TEST(SettingsTable, TheLargestTileHasLanes) {
+TEST(SettingsTable, TheLargestSetFitsIntoTheLanes) {
     RenderSettings settings;
     EXPECT_EQ(std::get<Setting::Whole>(setting_named(settings_of(settings), "tile").kind).most, most_tile);
     EXPECT_LE((most_tile + 1) * (most_tile + 1), most_lanes);
 }
 
-TEST(SettingsTable, SetTextUndoesText) {
+TEST(SettingsTable, TextReturnsWhatSetTextTook) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
         {"tile", {"1", "16"}},
         {"adapt_tile", {"on", "off"}},
@@ -72,7 +73,7 @@ TEST(SettingsTable, SetTextUndoesText) {
     }
 }
 
-TEST(SettingsTable, HasWhatIsNoRenderSetting) {
+TEST(SettingsTable, CoversSettingsOutsideRenderSettings) {
     ReconstructionSettings reconstruction;
     Method method{};
     std::uint64_t seed = 0;
@@ -99,17 +100,17 @@ TEST(SettingsTable, HasWhatIsNoRenderSetting) {
     EXPECT_EQ(method, Method::gpr);
     EXPECT_EQ(reconstruction, (ReconstructionSettings{Norm::weighted, 1000}));
     EXPECT_EQ(size, glm::ivec2(64, 32));
-    EXPECT_EQ(refusal(setting_named(settings, "spp"), "1"),
+    EXPECT_EQ(rejection(setting_named(settings, "spp"), "1"),
               "spp is \"1\": must be a whole number from 2 to 100000000");
     for (const char* text : {"-1", "18446744073709551616", "1.5", ""})
-        EXPECT_THAT(refusal(setting_named(settings, "seed"), text), HasSubstr("must be a whole number from 0"));
+        EXPECT_THAT(rejection(setting_named(settings, "seed"), text), HasSubstr("must be a whole number from 0"));
     for (const char* text : {"64", "64x", "x32", "0x32", "64x8193", "64x32x", "-1x5", "64 x32"})
-        EXPECT_THAT(refusal(setting_named(settings, "size"), text),
+        EXPECT_THAT(rejection(setting_named(settings, "size"), text),
                     HasSubstr("must be WIDTHxHEIGHT, such as 640x360, each from 1 to 8192 pixels"))
             << text;
 }
 
-TEST(SettingsTable, ChoicesStandInTheOrderOfTheirEnums) {
+TEST(SettingsTable, ChoicesAreInTheOrderOfTheirEnums) {
     ReconstructionSettings reconstruction;
     for (Norm norm : all_norms) {
         reconstruction.norm = norm;
@@ -119,7 +120,7 @@ TEST(SettingsTable, ChoicesStandInTheOrderOfTheirEnums) {
         EXPECT_EQ(method_setting(method).text(), short_name(method));
 }
 
-TEST(SettingsTable, SaysWhatMatters) {
+TEST(SettingsTable, MattersDependsOnMethodAndNorm) {
     ReconstructionSettings reconstruction;
     for (Norm norm : all_norms) {
         reconstruction.norm = norm;
@@ -153,18 +154,18 @@ TEST(SettingsTable, SetTextOfItsOwnTextChangesNothing) {
     }
 }
 
-TEST(SettingsTable, RefusesWhatItMayNotBe) {
+TEST(SettingsTable, RejectsInvalidText) {
     const std::string tile = "must be a whole number from 1 to 16";
     for (const char* text : {"0", "17", "-1", "4.5", "4x", " 4", "", "four", "99999999999"})
-        EXPECT_THAT(refusal("tile", text), HasSubstr(tile)) << text;
+        EXPECT_THAT(rejection("tile", text), HasSubstr(tile)) << text;
     for (const char* text : {"-0.1", "1000.1", "nan", "inf", "", "0.1,0.2"})
-        EXPECT_THAT(refusal("shift_distance", text), HasSubstr("must be a number from 0 to 1000")) << text;
+        EXPECT_THAT(rejection("shift_distance", text), HasSubstr("must be a number from 0 to 1000")) << text;
     for (const char* text : {"true", "1", "", "ON"})
-        EXPECT_THAT(refusal("adapt_tile", text), HasSubstr("must be on or off")) << text;
-    EXPECT_EQ(refusal("roulette", "fair"), "roulette is \"fair\": must be one of relative, absolute, none");
+        EXPECT_THAT(rejection("adapt_tile", text), HasSubstr("must be on or off")) << text;
+    EXPECT_EQ(rejection("roulette", "fair"), "roulette is \"fair\": must be one of relative, absolute, none");
 }
 
-TEST(SettingsTable, SettingsHaveTheNamesOfTheirOptions) {
+TEST(SettingsTable, FindsSettingsByTheNamesOfOptions) {
     RenderSettings settings;
     EXPECT_EQ(setting_named(settings_of(settings), "rr-delta").id, "rr_delta");
     EXPECT_EQ(setting_named(settings_of(settings), "rr_delta").id, "rr_delta");

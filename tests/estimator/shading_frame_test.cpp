@@ -1,4 +1,4 @@
-// Frames of shading: along the texture's u where roughness differs by direction, seen from either side.
+// Shading frames: their tangents follow the texture's u where roughness is anisotropic, seen from either side.
 #include "render/paths/tracer.h"
 #include "tests/support/scene_builder.h"
 
@@ -12,8 +12,8 @@ namespace tessera::test {
 
 namespace {
 
-/// The vertex where a square with slanted texture coordinates is met from above or below.
-Vertex met(const Scene& scene, bool from_above) {
+/// Returns the vertex at which a ray from above or below hits the square.
+Vertex vertex_seen(const Scene& scene, bool from_above) {
     const Ray ray{{0.3f, 0.2f, from_above ? 2.0f : -2.0f}, {0, 0, from_above ? -1.0f : 1.0f}};
     Hit hit;
     EXPECT_TRUE(scene.intersector().closest(ray, hit));
@@ -22,14 +22,14 @@ Vertex met(const Scene& scene, bool from_above) {
     return v;
 }
 
-TEST(ShadingFrame, LiesAlongUWhereItMatters) {
+TEST(ShadingFrame, FollowsUOfAnisotropicSurfaces) {
     const glm::vec3 along_u = glm::normalize(glm::vec3(1, 0.5f, 0));
     for (const bool is_brushed : {false, true}) {
         SceneBuilder b;
         b.quad({-1, -1, 0}, {2, 1, 0}, {-1, 2, 0}, is_brushed ? b.brushed(0.1f, 0.4f) : b.conductor(0.2f));
         const auto scene = b.build();
         for (const bool from_above : {false, true}) {
-            const Vertex v = met(*scene, from_above);
+            const Vertex v = vertex_seen(*scene, from_above);
             EXPECT_NEAR(v.frame.normal.z, from_above ? 1 : -1, 1e-6f);
             EXPECT_EQ(std::abs(glm::dot(v.frame.tangent, along_u)) > 0.9999f, is_brushed);
             const glm::vec3 third = glm::cross(v.frame.tangent, v.frame.bitangent);
@@ -38,7 +38,7 @@ TEST(ShadingFrame, LiesAlongUWhereItMatters) {
     }
 }
 
-TEST(ShadingFrame, IsAnyWhereUSaysNothing) {
+TEST(ShadingFrame, IsOrthonormalWithoutAUsableU) {
     const glm::vec3 normal = glm::normalize(glm::vec3(0.2f, 0.3f, 1));
     for (const glm::vec3 along : {normal, glm::vec3(0), glm::vec3(NAN)}) {
         const Frame frame(normal, along);

@@ -1,5 +1,5 @@
-// Light paths that reach their light by way of a surface too glossy to connect to: the shift must take them along
-// whatever else the base path carries, and whether or not the edge that it does not use is free.
+// Light paths through an x_2 that is too glossy to be connectable: half-vector copies must shift them, also when
+// the direct edge from y_1 to x_2, which they do not use, is blocked.
 #include "render/scene/scene.h"
 #include "tests/support/one_shift.h"
 #include "tests/support/scene_builder.h"
@@ -25,12 +25,12 @@ TestScene scene_named(const std::string& name) {
     throw std::runtime_error("no scene " + name);
 }
 
-/// What the shifts of many base paths to the pixel on the right did to emitter sampling at x_2.
+/// Results of shifting many base paths, with emitter sampling at a glossy x_2, to the pixel on the right.
 struct Tally {
-    int light_is_last = 0;       ///< base paths whose last light is found by emitter sampling at a glossy x_2
-    int shifted = 0;             ///< of these, shifted
-    int edge_hidden = 0;         ///< base paths whose x_2 the offset does not see
-    int shifted_past_hidden = 0; ///< of these, shifted by a bounce that does not need to
+    int light_is_last = 0;        ///< base paths whose last light path ends by emitter sampling at x_2
+    int shifted = 0;              ///< successful shifts of these
+    int blocked = 0;              ///< base paths whose x_2 is not visible from y_1
+    int shifted_past_blocked = 0; ///< successful shifts of these
 };
 
 Tally tally(const TestScene& t) {
@@ -70,19 +70,19 @@ Tally tally(const TestScene& t) {
                 if (tracer.occluded(tracer.between(from.position, from.geometric_normal, to.position,
                                                    to.geometric_normal, direction),
                                     RayKind::shift_edge)) {
-                    ++sum.edge_hidden;
-                    sum.shifted_past_hidden += shifted;
+                    ++sum.blocked;
+                    sum.shifted_past_blocked += shifted;
                 }
             }
     return sum;
 }
 
-TEST(Shift, LightBeyondAGlossySecondVertexIsTakenAlong) {
+TEST(Shift, ShiftsLightBeyondAGlossySecondVertex) {
     const Tally t = tally(scene_named("glossy_second_vertex"));
     ASSERT_GT(t.light_is_last, 200);
-    EXPECT_GT(t.shifted, t.light_is_last / 10); // the bounce must find the lamp
-    ASSERT_GT(t.edge_hidden, 10);
-    EXPECT_GT(t.shifted_past_hidden, 0);
+    EXPECT_GT(t.shifted, t.light_is_last / 10); // the copied direction must find the lamp
+    ASSERT_GT(t.blocked, 10);
+    EXPECT_GT(t.shifted_past_blocked, 0);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Images smaller than tiles and patterns, to a single pixel, against the naive judge: sampling sets that are cut
-// off on all sides, and pixels without neighbours.
+// Z-tests against the naive path tracer for images smaller than tiles and patterns: sampling sets that are cut off
+// on all sides, and pixels without neighbours.
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
 
@@ -34,11 +34,11 @@ TestScene scene_named(std::string_view name) {
 
 class SmallImage : public testing::TestWithParam<Case> {};
 
-TEST_P(SmallImage, AllMethods) {
+TEST_P(SmallImage, AllMethodsAreUnbiased) {
     const TestScene t = scene_named(GetParam().scene);
     const glm::ivec2 size = GetParam().size;
     const NaiveMeasured truth = render_naive(*t.scene, size, t.max_depth, naive_samples, 3);
-    const int passes = 512 / (size.x * size.y) + 16; // about as many paths for all sizes
+    const int passes = 512 / (size.x * size.y) + 16; // similar numbers of paths for all sizes
     for (const Method method : all_methods)
         for (const int tile : {1, 6, 16})
             for (const Pattern pattern : {Pattern::tile, Pattern::rooks}) {
@@ -55,14 +55,15 @@ TEST_P(SmallImage, AllMethods) {
                 const MethodMeasured m = measure(t.scene, size, s, runs, passes);
                 const std::string name = std::string(short_name(method)) + " tile " + std::to_string(tile) +
                                          (pattern == Pattern::rooks ? " rooks " : " ");
-                const auto judge = [&](const char* what, const Measured& measured, const Measured& expected) {
+                const auto test_image = [&](const char* image, const Measured& measured,
+                                            const Measured& expected) {
                     const ZResult z = z_test(measured, expected);
-                    EXPECT_TRUE(z.passes()) << name << what << ": " << z.to_string();
+                    EXPECT_TRUE(z.passes()) << name << image << ": " << z.to_string();
                 };
-                judge("primal", m.primal, truth.light);
+                test_image("primal", m.primal, truth.light);
                 if (has_gradients(method)) {
-                    judge("dx", m.dx, difference_x(truth.coefficient));
-                    judge("dy", m.dy, difference_y(truth.coefficient));
+                    test_image("dx", m.dx, difference_x(truth.coefficient));
+                    test_image("dy", m.dy, difference_y(truth.coefficient));
                 }
             }
 }

@@ -1,3 +1,4 @@
+// Reconstruction of the components of a basis [Fang 2024].
 #include "recon/picture/reconstruct.h"
 #include "recon/solvers/component_solver.h"
 #include "tests/recon/test_images.h"
@@ -18,11 +19,10 @@ using namespace test;
 constexpr int width = 45, height = 34, components = 3;
 constexpr float alpha = 0.2f;
 
-/// Parts that are smooth, and projections on them that are not: the whole is as uneven as under a map of normals.
-/// Everything but projections has noise; `component_noise` is that of the parts' gradients.
+/// Samples and their exact sum: smooth components with uneven projections, as under a normal map.
 struct Truth {
     GradientImages images;
-    RgbImage whole;
+    RgbImage whole; ///< sum of components times projections, without noise
 };
 
 void add(RgbImage& image, const RgbImage& noise, float scale) {
@@ -30,6 +30,8 @@ void add(RgbImage& image, const RgbImage& noise, float scale) {
         image.data()[i] += scale * noise.data()[i];
 }
 
+/// Returns such a truth. All images have noise, except the projections.
+/// @param component_noise  of the gradients of components
 Truth uneven_images(float primal_noise, float component_noise, unsigned seed = 1) {
     Truth t{{}, RgbImage(width, height)};
     for (int l = 0; l < components; ++l) {
@@ -59,9 +61,9 @@ Truth uneven_images(float primal_noise, float component_noise, unsigned seed = 1
     return t;
 }
 
-void give_variances(GradientImages& images, float of_primal, float of_parts) {
-    const Image<float> large(width, height, 3 * of_primal * of_primal),
-        small(width, height, 3 * of_parts * of_parts);
+void set_variances(GradientImages& images, float primal_noise, float component_noise) {
+    const Image<float> large(width, height, 3 * primal_noise * primal_noise),
+        small(width, height, 3 * component_noise * component_noise);
     images.primal_variance = images.dx_variance = images.dy_variance = large;
     for (BasisComponent& component : images.components) {
         component.primal_variance = large;
@@ -85,7 +87,7 @@ double mean_square_difference(const RgbImage& a, const RgbImage& b) {
     return sum / static_cast<double>(a.size());
 }
 
-TEST(PoissonParts, OnePartThatIsTheWholeIsThePlainProblem) {
+TEST(PoissonParts, OneComponentIsThePlainProblem) {
     GradientImages images = noisy_images(width, height);
     images.components.push_back({Image<float>(width, height, 1), images.primal, images.dx, images.dy});
     PoissonSolver plain(width, height);
@@ -100,10 +102,10 @@ TEST(PoissonParts, ExactGradientsAndPrimalGiveTheTruth) {
         EXPECT_LE(relative_difference(solve(t.images, norm), t.whole), 1e-4) << to_string(norm);
 }
 
-/// What the parts are for: their gradients tell the whole where its own are as noisy as the primal.
-TEST(PoissonParts, SmoothPartsTakeTheNoiseOfAnUnevenWholeAway) {
+/// The gradients of smooth components reconstruct a whole whose own gradients are as noisy as its primal.
+TEST(PoissonParts, SmoothComponentsReduceTheNoiseOfAnUnevenWhole) {
     Truth t = uneven_images(0.3f, 0.01f);
-    give_variances(t.images, 0.3f, 0.01f);
+    set_variances(t.images, 0.3f, 0.01f);
     GradientImages plain = t.images;
     plain.components.clear();
     for (const Norm norm : {Norm::l2, Norm::mixed, Norm::weighted}) {
@@ -114,19 +116,19 @@ TEST(PoissonParts, SmoothPartsTakeTheNoiseOfAnUnevenWholeAway) {
     }
 }
 
-/// By l2, the picture of a sum is the sum of the pictures: so it is unbiased.
+/// The picture of a sum is the sum of the pictures, so `l2` is unbiased.
 TEST(PoissonParts, L2IsLinear) {
     const Truth a = uneven_images(0.3f, 0.2f, 1), b = uneven_images(0.5f, 0.1f, 2);
     GradientImages sum = a.images;
-    const auto join = [](RgbImage& to, const RgbImage& from) { add(to, from, 1); };
-    join(sum.primal, b.images.primal);
+    const auto add_to = [](RgbImage& to, const RgbImage& from) { add(to, from, 1); };
+    add_to(sum.primal, b.images.primal);
     for (std::size_t l = 0; l < components; ++l) {
-        join(sum.components[l].primal, b.images.components[l].primal);
-        join(sum.components[l].dx, b.images.components[l].dx);
-        join(sum.components[l].dy, b.images.components[l].dy);
+        add_to(sum.components[l].primal, b.images.components[l].primal);
+        add_to(sum.components[l].dx, b.images.components[l].dx);
+        add_to(sum.components[l].dy, b.images.components[l].dy);
     }
     RgbImage expected = solve(a.images, Norm::l2);
-    join(expected, solve(b.images, Norm::l2));
+    add_to(expected, solve(b.images, Norm::l2));
     EXPECT_LE(relative_difference(solve(sum, Norm::l2), expected), 1e-3);
 }
 
@@ -142,7 +144,7 @@ TEST(PoissonParts, OutliersOfGradientsVanishInL1AndMixed) {
 
 TEST(PoissonParts, GivesTheSameBitsInAnyOrder) {
     Truth t = uneven_images(0.3f, 0.1f);
-    give_variances(t.images, 0.3f, 0.1f);
+    set_variances(t.images, 0.3f, 0.1f);
     for (const Norm norm : {Norm::l2, Norm::mixed, Norm::weighted})
         EXPECT_EQ(relative_difference(solve(t.images, norm, backwards_for), solve(t.images, norm)), 0);
 }
@@ -159,8 +161,7 @@ TEST(PoissonParts, StopsBetweenSteps) {
         reconstruct(uneven_images(0.1f, 0.1f).images, {}, serial_for, SolveWatch(stop.get_token())).image.empty());
 }
 
-/// Numbers beyond floats make no NaN.
-TEST(PoissonParts, TooLargeNumbersEndTheStepsWithoutNaN) {
+TEST(PoissonParts, OverflowGivesNoNaN) {
     Truth t = uneven_images(0.1f, 0.1f);
     t.images.components[0].dx(5, 5) = Rgb(1e30f);
     for (const Rgb& pixel : solve(t.images, Norm::l2))

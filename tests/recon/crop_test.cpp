@@ -1,4 +1,4 @@
-// Crops of a picture: a pixel depends on the samples around it, not on the frame.
+// Crops of a picture: a pixel depends on the samples around it, and not on the position of the picture's border.
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
@@ -16,28 +16,29 @@ namespace {
 
 constexpr int tile = 4, samples = 16;
 
-/// Noise that the pixels of a tile share, and a little of their own.
+/// Returns noise that is equal within each tile, plus a little independent noise.
 RgbImage tile_noise(int width, int height, std::uint32_t seed, float deviation) {
-    const RgbImage of_tiles = random_image(width / tile, height / tile, seed, 0, deviation);
+    const RgbImage tile_values = random_image(width / tile, height / tile, seed, 0, deviation);
     RgbImage noise = random_image(width, height, seed + 1, 0, 0.2f * deviation);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            noise(x, y) += of_tiles(x / tile, y / tile);
+            noise(x, y) += tile_values(x / tile, y / tile);
     return noise;
 }
 
-/// Walls of different normals under light that falls off across them, with a shadow that no feature shows.
+/// Returns the light on walls of different normals: it falls off across them and has shadows that no feature
+/// shows. Sets their features.
 RgbImage lit_walls(int width, int height, FeatureImages& features) {
     RgbImage light(width, height);
     features = {RgbImage(width, height), RgbImage(width, height), Image<float>(width, height, 1),
                 Image<float>(width, height, 1)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const bool is_other = (x / 50 + y / 40) % 2 == 0;
+            const bool faces_z = (x / 50 + y / 40) % 2 == 0;
             const float fall_off = 0.5f + 0.5f * std::cos(0.02f * static_cast<float>(x + y));
             light(x, y) = (x % 90 < 45 ? 1.0f : 0.3f) * (0.2f + fall_off) * Rgb(1, 0.9f, 0.8f);
             features.albedo(x, y) = x / 5 % 2 == 0 ? Rgb(0.7f, 0.5f, 0.3f) : Rgb(0.2f, 0.4f, 0.6f);
-            features.normal(x, y) = is_other ? Rgb(0, 0, 1) : Rgb(1, 0, 0);
+            features.normal(x, y) = faces_z ? Rgb(0, 0, 1) : Rgb(1, 0, 0);
         }
     return light;
 }
@@ -63,20 +64,20 @@ void add_firefly_tiles(GradientImages& images) {
         }
 }
 
-/// All images that the stages of `guided` read.
+/// Returns all images that the stages of `guided` read.
 GradientImages whole_images(int width, int height) {
-    constexpr float of_primal = 0.2f, of_gradients = 0.05f;
+    constexpr float primal_noise = 0.2f, gradient_noise = 0.05f;
     GradientImages images;
     images.primal = lit_walls(width, height, images.features);
     images.dx = x_differences(images.primal);
     images.dy = y_differences(images.primal);
-    add(images.primal, tile_noise(width, height, 1, of_primal));
-    add(images.dx, random_image(width, height, 3, 0, of_gradients));
-    add(images.dy, random_image(width, height, 4, 0, of_gradients));
-    images.halves = {tile_noise(width, height, 5, of_primal), random_image(width, height, 7, 0, of_gradients),
-                     random_image(width, height, 8, 0, of_gradients)};
-    images.primal_variance = Image<float>(width, height, 3 * of_primal * of_primal);
-    images.dx_variance = images.dy_variance = Image<float>(width, height, 3 * of_gradients * of_gradients);
+    add(images.primal, tile_noise(width, height, 1, primal_noise));
+    add(images.dx, random_image(width, height, 3, 0, gradient_noise));
+    add(images.dy, random_image(width, height, 4, 0, gradient_noise));
+    images.halves = {tile_noise(width, height, 5, primal_noise), random_image(width, height, 7, 0, gradient_noise),
+                     random_image(width, height, 8, 0, gradient_noise)};
+    images.primal_variance = Image<float>(width, height, 3 * primal_noise * primal_noise);
+    images.dx_variance = images.dy_variance = Image<float>(width, height, 3 * gradient_noise * gradient_noise);
     images.patch = tile;
     add_firefly_tiles(images);
     const FeatureImages features = images.features;
@@ -85,7 +86,7 @@ GradientImages whole_images(int width, int height) {
     return images;
 }
 
-/// Calls visit(image) for all images of the samples.
+/// Calls visit(image) for all images of `images`.
 template <class Visit>
 void for_each_image(GradientImages& images, Visit&& visit) {
     Demodulation& d = images.demodulation;
@@ -113,8 +114,8 @@ Image<Pixel> cropped(const Image<Pixel>& image, PixelRect rect) {
     return result;
 }
 
-/// Zeroes the gradients that lead out of the frame.
-void end_gradients(GradientImages& images) {
+/// Sets the gradients and variances across the right and the lower border to 0.
+void clear_border_gradients(GradientImages& images) {
     const int w = images.primal.width(), h = images.primal.height();
     for (RgbImage* dx : {&images.dx, &images.brightest.dx, &images.halves.dx})
         for (int y = 0; y < h; ++y)
@@ -130,11 +131,11 @@ void end_gradients(GradientImages& images) {
 
 GradientImages cropped(GradientImages images, PixelRect rect) {
     for_each_image(images, [&](auto& image) { image = cropped(image, rect); });
-    end_gradients(images);
+    clear_border_gradients(images);
     return images;
 }
 
-/// The picture of a crop, and the crop of the picture.
+/// The reconstruction of a crop, and the crop of the reconstruction.
 struct Pictures {
     RgbImage of_crop, of_whole;
 
@@ -150,20 +151,20 @@ struct Pictures {
         of_whole = cropped(picture(images), crop);
     }
 
-    /// The relative rms difference of the pixels in a rectangle of the crop.
+    /// Returns the relative rms difference in a rectangle of the crop.
     double difference(PixelRect inside) const {
         return relative_rms_difference(cropped(of_crop, inside), cropped(of_whole, inside));
     }
 };
 
-/// The relative rms differences of the pixels that are at least 10, 40 and 100 pixels within a crop of 294 x 246.
+/// Relative rms differences over the pixels at least 10, 40 and 100 pixels from the border of a crop of 294x246.
 struct Differences {
     double at_10, at_40, at_100;
 
     explicit Differences(Norm norm, const GuidedStages& stages = {}) {
-        constexpr PixelRect crop{53, 37, 347, 283}; // 53 and 37 are multiples of no tile and no grid of a solver
+        constexpr PixelRect crop{53, 37, 347, 283}; // not aligned with tiles or multigrid levels
         GradientImages images = whole_images(400, 320);
-        end_gradients(images);
+        clear_border_gradients(images);
         const Pictures pictures(images, crop, norm, stages);
         const auto at = [&](int depth) {
             return pictures.difference({depth, depth, crop.width() - depth, crop.height() - depth});
@@ -176,7 +177,8 @@ struct Differences {
     }
 };
 
-/// Redistributed energy comes from pixels beyond the crop, too.
+/// The difference falls with depth. It does not vanish, because redistributed energy also comes from pixels
+/// outside of the crop.
 TEST(Crop, ConvergesToTheWholeWithDepth) {
     for (const Norm norm : {Norm::guided, Norm::smoothed}) {
         const Differences d(norm);
@@ -186,7 +188,7 @@ TEST(Crop, ConvergesToTheWholeWithDepth) {
     }
 }
 
-/// The few steps of the weighted solver leave a difference in `guided`.
+/// `guided` keeps a difference, because its solver takes few steps.
 TEST(Crop, WithoutRedistributionEqualsTheWholeFarFromTheBorder) {
     GuidedStages stages;
     stages.redistribution = false;
@@ -197,11 +199,11 @@ TEST(Crop, WithoutRedistributionEqualsTheWholeFarFromTheBorder) {
     EXPECT_LT(guided.at_100, 0.01);
 }
 
-/// A strip that is cut on the left alone: beyond the reach of all stages, the frame does not matter.
+/// A strip that is cut at the left only. Beyond the reach of all stages, the border has no influence.
 TEST(Crop, EqualsTheWholeBeyondTheReachOfRedistribution) {
     constexpr int width = 1000, height = 60, cut = 53;
     GradientImages images = whole_images(width, height);
-    end_gradients(images);
+    clear_border_gradients(images);
     const Pictures pictures(images, {cut, 0, width, height}, Norm::smoothed, {});
     const auto difference = [&](int begin, int end) { return pictures.difference({begin, 0, end, height}); };
     const double near = difference(0, 50), far = difference(300, 400), beyond = difference(700, width - cut);

@@ -1,4 +1,5 @@
-// Pictures of a coefficient: recombine(), which is unbiased, and remodulate(), which has less noise.
+// Radiance from a reconstructed coefficient: recombine(), METHODS (29), is unbiased; remodulate(), METHODS (45),
+// has less noise.
 #include "recon/guided/demodulation.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -23,7 +24,7 @@ RgbImage random_image(unsigned seed, float low, float high) {
     return image;
 }
 
-/// Noisy gradients and primal, with variances.
+/// Returns noisy primal and gradients, with variances.
 GradientImages random_gradients() {
     GradientImages images{random_image(1, 0, 2), random_image(2, -1, 1), random_image(3, -1, 1),
                           random_image(4, 0, 1)};
@@ -56,7 +57,7 @@ TEST(Remodulation, ByAnAlbedoOfOneChangesNothing) {
     }
 }
 
-TEST(Remodulation, OfThePrimalIsTheValue) {
+TEST(Remodulation, OfThePrimalIsTheMeanRadiance) {
     GradientImages images = random_gradients();
     images.demodulation = demodulation_by(images.primal, random_image(5, 0.1f, 1));
     images.demodulation.value = random_image(6, 0, 1); // any covariance of albedo and coefficient
@@ -68,7 +69,7 @@ TEST(Remodulation, OfThePrimalIsTheValue) {
                         images.demodulation.value.data()[i][c] + images.very_direct.data()[i][c], 1e-6f);
 }
 
-TEST(Remodulation, OfAConstantCoefficientIsItTimesTheAlbedo) {
+TEST(Remodulation, OfAConstantCoefficientIsItsProductWithTheAlbedo) {
     GradientImages images;
     images.primal = RgbImage(width, height, Rgb(3, 2, 1));
     images.dx = images.dy = RgbImage(width, height, Rgb(0));
@@ -83,8 +84,8 @@ TEST(Remodulation, OfAConstantCoefficientIsItTimesTheAlbedo) {
     }
 }
 
-/// Images of n samples of albedo and coefficient at every pixel, with the correlation `together`.
-GradientImages sampled(int n, float together, unsigned seed) {
+/// Returns images of n samples of albedo and coefficient at every pixel, with this correlation between the two.
+GradientImages sampled(int n, float correlation, unsigned seed) {
     std::mt19937 engine(seed);
     std::normal_distribution<float> normal;
     GradientImages images;
@@ -96,14 +97,14 @@ GradientImages sampled(int n, float together, unsigned seed) {
                    black, Image<float>(width, height, 3 * 0.01f),
                    none,  black,
                    black, none};
-    const float unexplained = 3 * 0.04f * (1 - together * together) / static_cast<float>(n);
+    const float unexplained = 3 * 0.04f * (1 - correlation * correlation) / static_cast<float>(n);
     d.unexplained_variance = Image<float>(width, height, unexplained);
     for (std::size_t i = 0; i < images.primal.size(); ++i)
         for (int c = 0; c < 3; ++c)
             for (int k = 0; k < n; ++k) {
                 const float x = normal(engine), y = normal(engine);
                 const float a = 0.5f + 0.1f * x;
-                const float e = 1 + 0.2f * (together * x + std::sqrt(1 - together * together) * y);
+                const float e = 1 + 0.2f * (correlation * x + std::sqrt(1 - correlation * correlation) * y);
                 images.primal.data()[i][c] += e / static_cast<float>(n);
                 d.sampled_albedo.data()[i][c] += a / static_cast<float>(n);
                 d.value.data()[i][c] += a * e / static_cast<float>(n);
@@ -126,8 +127,8 @@ double mean_of(const RgbImage& image) {
     return sum / (3 * static_cast<double>(image.size()));
 }
 
-/// Where albedo and coefficient are independent, rho is noise, and a tenth of it may stay. Where they are not, the
-/// covariance is added as samples grow.
+/// If albedo and coefficient are independent, rho of METHODS (45) is noise, and at most a tenth of it stays. If
+/// they are correlated, the covariance is added at many samples.
 TEST(Remodulation, AddsACovarianceThatStandsOutFromNoise) {
     RgbImage independent(width, height, Rgb(1)), many = independent;
     remodulate(sampled(16, 0, 1), GuidedParameters(), independent, serial_for);
@@ -139,11 +140,10 @@ TEST(Remodulation, AddsACovarianceThatStandsOutFromNoise) {
     EXPECT_NEAR(mean_of(many), 0.5 + 0.9 * 0.02, 0.0005); // E[a e]
 }
 
-/// All samples of a pixel fell on one of its two surfaces: the slope comes from the pixels around, and not from
-/// rounding errors.
+/// If all samples of a pixel hit the same one of its two surfaces, the slope comes from the neighbours, and not
+/// from rounding errors.
 TEST(Remodulation, TakesTheSlopeOfTwoSurfacesFromThePixelsAround) {
-    const float a[] = {0.8f, 0.1f},
-                e[] = {0.25f, 2}; // equal radiance: without the covariance the mean is 2.5 times as large
+    const float a[] = {0.8f, 0.1f}, e[] = {0.25f, 2}; // equal radiance; the product of means is 2.5 times as large
     for (const float rounding : {0.0f, 1e-12f}) {
         GradientImages images;
         images.primal = RgbImage(3, 1);
@@ -151,10 +151,10 @@ TEST(Remodulation, TakesTheSlopeOfTwoSurfacesFromThePixelsAround) {
         const RgbImage black(3, 1), value(3, 1, Rgb(0.2f));
         const Image<float> none(3, 1), spread(3, 1, 3 * 0.1225f);
         Demodulation d{value, RgbImage(3, 1, Rgb(0.45f)), black, spread, none, black, black, none};
-        for (int x = 0; x < 3; ++x) { // the first surface, both, the first
-            const float share = x == 1 ? 0.5f : 1;
-            d.sampled_albedo(x, 0) = Rgb(share * a[0] + (1 - share) * a[1]);
-            images.primal(x, 0) = Rgb(share * e[0] + (1 - share) * e[1]);
+        for (int x = 0; x < 3; ++x) { // pixels 0 and 2 see the first surface, pixel 1 both
+            const float fraction = x == 1 ? 0.5f : 1;
+            d.sampled_albedo(x, 0) = Rgb(fraction * a[0] + (1 - fraction) * a[1]);
+            images.primal(x, 0) = Rgb(fraction * e[0] + (1 - fraction) * e[1]);
             d.sampled_variance(x, 0) = Rgb(x == 1 ? 0.1225f : rounding);
             d.value_covariance(x, 0) = Rgb(x == 1 ? 0 : rounding * 1e6f);
         }
@@ -166,8 +166,8 @@ TEST(Remodulation, TakesTheSlopeOfTwoSurfacesFromThePixelsAround) {
     }
 }
 
-/// The samples of the middle pixel missed its brighter surface. Its neighbour has a slope of 100, but an albedo
-/// that hardly varies: the middle pixel must not use that slope. Huge variances give finite pictures.
+/// The samples of the middle pixel missed its surface with the larger albedo. Its neighbour has a slope of 100
+/// from an albedo that hardly varies, which the middle pixel must not use. Huge variances give finite pictures.
 TEST(Remodulation, TakesNoSlopeFromPixelsWhoseAlbedoHardlyVaries) {
     GradientImages images;
     images.primal = RgbImage(3, 1, Rgb(1.3f));
@@ -189,7 +189,7 @@ TEST(Remodulation, TakesNoSlopeFromPixelsWhoseAlbedoHardlyVaries) {
     }
 }
 
-/// The mean of the noise around a pixel is a mean of roots.
+/// METHODS (47) takes means of roots, so that one noisy pixel does not remove the covariance of its neighbours.
 TEST(Remodulation, KeepsTheCovarianceBesideANoisyPixel) {
     RgbImage image(width, height, Rgb(1)), with_noise = image;
     GradientImages images = sampled(400, 0.9f, 5);
@@ -201,7 +201,7 @@ TEST(Remodulation, KeepsTheCovarianceBesideANoisyPixel) {
             EXPECT_NEAR(with_noise(x, y).r, image(x, y).r, 0.001f) << x << ", " << y;
 }
 
-/// At two samples a pixel, and for a wrong albedo.
+/// Also at two samples a pixel, and for a wrong albedo.
 TEST(Recombination, IsUnbiasedForAnyAlbedo) {
     double sum = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {

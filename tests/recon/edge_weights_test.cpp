@@ -1,4 +1,4 @@
-// Weights of gradients: from variances, relative to the brightness.
+// Weights of gradients, METHODS (38) to (40).
 #include "recon/solvers/edge_weights.h"
 #include "tests/recon/test_images.h"
 
@@ -19,7 +19,7 @@ TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
     images.primal_variance = Image<float>(30, 20, 2);
     images.dx_variance = images.dy_variance = Image<float>(30, 20, 0.2f);
     for (int y = 0; y < 20; ++y)
-        images.dx_variance(29, y) = 0; // nothing is measured there
+        images.dx_variance(29, y) = 0; // there is no gradient
     for (int x = 0; x < 30; ++x)
         images.dy_variance(x, 19) = 0;
     images.dx_variance(15, 10) = 1e6f;
@@ -42,8 +42,8 @@ TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
     EXPECT_FLOAT_EQ(weights_of_gradients(images, 0.2f).x(3, 17), 0.04f / (0.04f + k / 2 * 0.2f / 2));
 }
 
-/// A dark groove between boards, with noise in proportion to the brightness: the groove must not take the noise of
-/// the boards.
+/// A dark groove between bright boards, with noise in proportion to brightness. The groove must not take over the
+/// noise of the boards, so variances are averaged relative to brightness, METHODS (40).
 TEST(EdgeWeights, AreSmallAtADarkGroove) {
     constexpr int groove = 10;
     const auto light = [](int y) { return y == groove ? 0.03f : 1.0f; };
@@ -63,7 +63,7 @@ TEST(EdgeWeights, AreSmallAtADarkGroove) {
         for (int x = 0; x < 30; ++x)
             images.dy_variance(x, y) = std::max(variance(y), variance(y + 1));
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
-    EXPECT_LT(weights.y(15, groove - 1), 0.015f); // 0.038 by means of absolute variances
+    EXPECT_LT(weights.y(15, groove - 1), 0.015f);
     EXPECT_LT(weights.y(15, groove), 0.015f);
     EXPECT_GT(weights.x(15, groove), 0.25f);
     EXPECT_GT(weights.x(15, 3), 0.25f);
@@ -84,7 +84,7 @@ TEST(EdgeWeights, AreBetweenZeroAndOneForAnyBrightness) {
         }
 }
 
-/// Of two surfaces, one has a hundredth of the variance of the other.
+/// The variance on the right is a hundredth of that on the left.
 TEST(EdgeWeights, FollowTheSmallerVarianceOfTheTwoPixels) {
     constexpr int width = 30, height = 20, border = 15;
     GradientImages images{RgbImage(width, height), RgbImage(width, height), RgbImage(width, height), {}};
@@ -106,7 +106,7 @@ TEST(EdgeWeights, AreOneWithoutNoise) {
     GradientImages images{RgbImage(8, 8), RgbImage(8, 8), RgbImage(8, 8), {}};
     images.primal_variance = images.dx_variance = images.dy_variance = Image<float>(8, 8, 0);
     EXPECT_EQ(weights_of_gradients(images, 0.2f).x(3, 3), 1);
-    images.dx_variance(3, 3) = 1; // of a primal without noise: it needs no gradient
+    images.dx_variance(3, 3) = 1; // the primal has no noise, so it needs no gradient
     EXPECT_EQ(weights_of_gradients(images, 0.2f).x(3, 3), 0);
 }
 

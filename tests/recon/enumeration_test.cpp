@@ -1,4 +1,4 @@
-// Tables by position: whether there is an entry for each value is known when the program is compiled.
+// Tables with one entry for each enumerator. The compiler checks their size.
 #include "recon/enumeration.h"
 #include "recon/picture/reconstruct.h"
 
@@ -18,8 +18,7 @@ static_assert(enumerator_count<Colour> == 3);
 static_assert(enumerator_count<Single> == 1);
 static_assert(enumerator_count<Norm> == 9);
 static_assert(HasEntries<int[3]>);
-static_assert(!HasEntries<int[2]> && !HasEntries<int[4]>,
-              "a table that is too short or too long is no such table");
+static_assert(!HasEntries<int[2]> && !HasEntries<int[4]>, "a table needs exactly one entry for each enumerator");
 
 TEST(Enumeration, EntriesAreInTheOrderOfTheValues) {
     constexpr const char* names[] = {"red", "green", "blue"};

@@ -1,4 +1,5 @@
-// First-order regression on features: its definition, and the noise that it removes at edges.
+// First-order regression on features, METHODS (53) to (55): its definition, and the noise that it removes at
+// edges.
 #include "recon/guided/feature_regression.h"
 #include "tests/recon/test_images.h"
 
@@ -89,7 +90,7 @@ double naive(const Case& c, std::size_t channel, int x, int y) {
             all += static_cast<double>(c.weights(qx, qy));
         }
     for (std::size_t k = 0; k < feature_count; ++k)
-        e[k][k] += static_cast<double>(ridge) * all + 1e-5 * e[k][k]; // and the ridge against rounding
+        e[k][k] += static_cast<double>(ridge) * all + 1e-5 * e[k][k]; // the second term prevents rounding errors
     return last_unknown(e);
 }
 
@@ -119,7 +120,7 @@ TEST(FeatureRegression, LeavesOutConstantFeatures) {
 }
 
 /// A constant feature with one NaN.
-TEST(FeatureRegression, LeavesPixelsBesideANaNAsTheyAre) {
+TEST(FeatureRegression, LeavesPixelsBesideANaNUnchanged) {
     Case c(61, 9);
     const std::array<Plane, 6> before = c.fitted();
     c.features[3](20, 4) = std::numeric_limits<float>::quiet_NaN();
@@ -160,7 +161,7 @@ TEST(FeatureRegression, HasTheSameBitsInAnyOrder) {
         EXPECT_TRUE(std::equal(forward[channel].begin(), forward[channel].end(), backward[channel].begin()));
 }
 
-/// Pixels with fractions of two surfaces, which all differ: kernels find no pixels with similar features.
+/// Pixels that see different fractions of two surfaces, so that no two pixels have similar features.
 struct Edges {
     static constexpr int width = 64, height = 64;
     FeatureImages features{RgbImage(width, height), RgbImage(width, height, Rgb(0, 0, 1)),
@@ -177,7 +178,7 @@ struct Edges {
         }
     }
 
-    /// Error of the filtered picture, and of its noise, both over that of the noisy picture.
+    /// Errors of the filtered picture and of its filtered noise, both relative to the error of the noisy picture.
     struct Errors {
         double picture, noise;
     };
@@ -203,7 +204,7 @@ TEST(FeatureRegression, RemovesTheNoiseOfEdges) {
     EXPECT_NEAR(errors.noise, errors.picture, 0.3 * errors.picture);
 }
 
-/// Detail that no feature shows comes back as noise vanishes.
+/// Detail that no feature shows stays as noise vanishes.
 TEST(FeatureRegression, IsConsistent) {
     Edges edges;
     const RgbImage other = random_image(Edges::width, Edges::height, 5, 0, 0.2f);
@@ -213,10 +214,10 @@ TEST(FeatureRegression, IsConsistent) {
     EXPECT_LT(edges.errors(1e-4f).picture, 1.001);
 }
 
-/// Few samples find the light: black pixels must not darken their neighbours.
+/// Few samples find light. The many black pixels must not darken their neighbours.
 TEST(FeatureRegression, KeepsTheBrightnessOfNoisyPixels) {
     const Edges edges;
-    const auto found = [](std::uint32_t seed, float sign) {
+    const auto random_hits = [](std::uint32_t seed, float sign) {
         std::mt19937 engine(seed);
         RgbImage factors(Edges::width, Edges::height);
         for (Rgb& factor : factors) {
@@ -227,7 +228,7 @@ TEST(FeatureRegression, KeepsTheBrightnessOfNoisyPixels) {
         }
         return factors;
     };
-    RgbImage picture = found(1, 1), noise = found(2, -1);
+    RgbImage picture = random_hits(1, 1), noise = random_hits(2, -1);
     for (std::size_t i = 0; i < picture.size(); ++i) {
         picture.data()[i] *= edges.truth.data()[i];
         noise.data()[i] *= edges.truth.data()[i];
@@ -237,13 +238,13 @@ TEST(FeatureRegression, KeepsTheBrightnessOfNoisyPixels) {
     EXPECT_NEAR(mean_color(smooth.image).r, before, 0.02 * before);
 }
 
-/// Features of one pixel are NaN, or too large to be squared, as a file may have them.
-TEST(FeatureRegression, OfOneInvalidPixelLeavesOthersAsTheyAre) {
-    for (const float wrong : {2e19f, std::numeric_limits<float>::quiet_NaN()}) {
+/// Features from a file may be NaN, or overflow when they are squared.
+TEST(FeatureRegression, OfOneInvalidPixelLeavesOthersUnchanged) {
+    for (const float invalid : {2e19f, std::numeric_limits<float>::quiet_NaN()}) {
         Edges edges;
         const RgbImage noise = random_image(Edges::width, Edges::height, 2, 0, 0.1f);
         const RgbImage before = filtered_with_noise({edges.truth, noise}, edges.features).image;
-        edges.features.normal(20, 20).z = wrong;
+        edges.features.normal(20, 20).z = invalid;
         const RgbImage after = filtered_with_noise({edges.truth, noise}, edges.features).image;
         for (int y = 0; y < Edges::height; ++y)
             for (int x = 0; x < Edges::width; ++x) {

@@ -1,4 +1,4 @@
-// Fireflies: which samples are clamped, what that changes, and that no light is lost.
+// Fireflies: which samples are clamped, METHODS (56) to (58), what that changes, and that no energy is lost.
 #include "recon/guided/fireflies.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -31,31 +31,31 @@ ClampedSamples clamped(const GradientImages& images, const ParallelFor& parallel
 
 /// Samples of every pixel, and the means and brightest samples that a film makes of them.
 struct Samples {
-    explicit Samples(int n) : of(static_cast<std::size_t>(n), RgbImage(width, height, Rgb(1))) {}
+    explicit Samples(int n) : passes(static_cast<std::size_t>(n), RgbImage(width, height, Rgb(1))) {}
 
     GradientImages images() const {
-        const double n = static_cast<double>(of.size());
+        const double n = static_cast<double>(passes.size());
         GradientImages result;
         BrightestSamples& b = result.brightest;
         for (RgbImage* image : {&result.primal, &result.dx, &result.dy, &b.primal, &b.dx, &b.dy})
             *image = RgbImage(width, height, Rgb(0));
         for (Image<float>* image : {&result.primal_variance, &result.dx_variance, &result.dy_variance})
             *image = Image<float>(width, height);
-        b.samples = static_cast<int>(of.size());
+        b.samples = static_cast<int>(passes.size());
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 double sum = 0, squares = 0;
                 Rgb sum_x(0), sum_y(0);
-                float most = 0;
-                for (const RgbImage& s : of) {
+                float brightest = 0;
+                for (const RgbImage& s : passes) {
                     const Rgb here = s(x, y), dx = x + 1 < width ? s(x + 1, y) - here : Rgb(0),
                               dy = y + 1 < height ? s(x, y + 1) - here : Rgb(0);
                     sum += static_cast<double>(here.r);
                     squares += 3 * static_cast<double>(here.r * here.r);
                     sum_x += dx;
                     sum_y += dy;
-                    if (const float size = std::max({here.r, std::abs(dx.r), std::abs(dy.r)}); size > most) {
-                        most = size;
+                    if (const float size = std::max({here.r, std::abs(dx.r), std::abs(dy.r)}); size > brightest) {
+                        brightest = size;
                         b.primal(x, y) = here;
                         b.dx(x, y) = dx;
                         b.dy(x, y) = dy;
@@ -69,54 +69,54 @@ struct Samples {
         return result;
     }
 
-    std::vector<RgbImage> of;
+    std::vector<RgbImage> passes;
 };
 
 bool is_in_tile(int x, int y) {
     return x >= 12 && x < 18 && y >= 10 && y < 16;
 }
 
-/// All samples are 1, but one of the 16 of a tile of 6x6 pixels is 1000.
+/// Returns 16 samples of 1, except for one sample of a tile of 6x6 pixels, which is 1000.
 Samples with_firefly_tile() {
     Samples samples(16);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             if (is_in_tile(x, y))
-                samples.of[5](x, y) = Rgb(1000);
+                samples.passes[5](x, y) = Rgb(1000);
     return samples;
 }
 
 TEST(Fireflies, AreClampedToAFractionOfTheOtherSamples) {
     const ClampedSamples result = clamped(with_firefly_tile().images());
-    const double most = factor_of(16);
+    const double limit = factor_of(16);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const bool is_lit = is_in_tile(x, y);
-            EXPECT_NEAR(result.images.primal(x, y).r, is_lit ? (15 + most) / 16 : 1, 1e-3) << x << ' ' << y;
-            EXPECT_NEAR(result.clamped(x, y).g, is_lit ? (1000 - most) / 16 : 0, 1e-3) << x << ' ' << y;
+            EXPECT_NEAR(result.images.primal(x, y).r, is_lit ? (15 + limit) / 16 : 1, 1e-3) << x << ' ' << y;
+            EXPECT_NEAR(result.clamped(x, y).g, is_lit ? (1000 - limit) / 16 : 0, 1e-3) << x << ' ' << y;
         }
 }
 
-/// Inside a tile whose pixels all have the firefly, and at its border, where only one pixel of two has it.
+/// Inside the tile, both pixels of a gradient have the firefly; at its border, only one has it.
 TEST(Fireflies, AreClampedInGradientsAsInThePrimal) {
-    constexpr double ordinary = 1.01 / 16; // the ordinary part of the sample is clamped with the firefly
+    constexpr double tolerance = 1.01 / 16; // the ordinary radiance of the sample is scaled down, too
     const GradientImages images = clamped(with_firefly_tile().images()).images;
     for (int y = 0; y + 1 < height; ++y)
         for (int x = 0; x + 1 < width; ++x) {
-            EXPECT_NEAR(images.dx(x, y).r, images.primal(x + 1, y).r - images.primal(x, y).r, ordinary);
-            EXPECT_NEAR(images.dy(x, y).r, images.primal(x, y + 1).r - images.primal(x, y).r, ordinary);
+            EXPECT_NEAR(images.dx(x, y).r, images.primal(x + 1, y).r - images.primal(x, y).r, tolerance);
+            EXPECT_NEAR(images.dy(x, y).r, images.primal(x, y + 1).r - images.primal(x, y).r, tolerance);
         }
 }
 
-/// Variances of raw samples tell a solver how little is known of such a pixel.
-TEST(Fireflies, LeaveVariancesAsTheyAre) {
+/// The solver needs the variances of the raw samples, so that it does not trust such a pixel.
+TEST(Fireflies, LeaveVariancesUnchanged) {
     const GradientImages images = with_firefly_tile().images();
     const ClampedSamples result = clamped(images);
     EXPECT_EQ(result.images.primal_variance(15, 13), images.primal_variance(15, 13));
     EXPECT_GT(result.images.primal_variance(15, 13), 1000);
 }
 
-/// Remodulation needs the variance of the clamped samples: here of 15 samples of 1, and the limit.
+/// Remodulation needs the variance of the clamped samples: here 15 samples of 1 and one of the limit.
 TEST(Fireflies, ReduceTheUnexplainedVarianceToThatOfClampedSamples) {
     GradientImages images = with_firefly_tile().images();
     const RgbImage black(width, height), white(width, height, Rgb(1));
@@ -124,14 +124,15 @@ TEST(Fireflies, ReduceTheUnexplainedVarianceToThatOfClampedSamples) {
     images.demodulation = {images.primal, white, white, none, none, black, black, images.primal_variance};
     images.brightest.albedo = white;
     const GradientImages result = clamped(images).images;
-    const double most = factor_of(16), mean = (15 + most) / 16,
-                 squares = 15 * (1 - mean) * (1 - mean) + (most - mean) * (most - mean);
+    const double limit = factor_of(16), mean = (15 + limit) / 16,
+                 squares = 15 * (1 - mean) * (1 - mean) + (limit - mean) * (limit - mean);
     EXPECT_NEAR(result.demodulation.unexplained_variance(15, 13), 3 * squares / (16 * 15), 1e-3);
     EXPECT_EQ(result.demodulation.unexplained_variance(3, 3), images.primal_variance(3, 3));
 }
 
-/// Of a coefficient, the clamped radiance is that of the value: albedo times coefficient of the sample.
-TEST(Fireflies, OfACoefficientAreClampedInItsRadianceToo) {
+/// With demodulation, the clamped radiance is the albedo of the sample times its clamped coefficient, METHODS
+/// (58).
+TEST(Fireflies, AreClampedInRadianceWithDemodulation) {
     GradientImages images = with_firefly_tile().images();
     demodulate(images);
     const ClampedSamples result = clamped(images);
@@ -141,7 +142,7 @@ TEST(Fireflies, OfACoefficientAreClampedInItsRadianceToo) {
     EXPECT_NEAR(result.clamped(15, 13).g, lost.g, 1e-3 * static_cast<double>(lost.g));
 }
 
-/// A pixel's half differences lose the clamped part of the sample, with the sign of its half.
+/// Half differences lose the clamped part of the sample with the sign of its half.
 TEST(Fireflies, AreClampedInHalfDifferences) {
     GradientImages images = with_firefly_tile().images();
     images.brightest.half = Image<float>(width, height, -1);
@@ -159,11 +160,11 @@ TEST(Fireflies, KeepTheSumOfClampedAndRemainingRadiance) {
     EXPECT_GT(sum_of(result.clamped), 0.5 * sum_of(images.primal));
 }
 
-/// All samples of a bright pixel agree.
+/// All samples of a bright pixel have the same value.
 TEST(Fireflies, AreNotThePixelsThatAreBrightInEverySample) {
     for (const int n : {2, 3, 4, 5, 6, 7, 16}) {
         Samples samples(n);
-        for (RgbImage& sample : samples.of)
+        for (RgbImage& sample : samples.passes)
             sample(9, 9) = Rgb(300);
         const ClampedSamples result = clamped(samples.images());
         EXPECT_EQ(sum_of(result.clamped), 0) << n;
@@ -171,7 +172,7 @@ TEST(Fireflies, AreNotThePixelsThatAreBrightInEverySample) {
     }
 }
 
-/// The largest sample may be a fraction of all others, so that the same sample is clamped at few samples only.
+/// The limit grows with the number of samples, so the same sample is clamped at few samples only.
 TEST(Fireflies, AreNotClampedAtManySamples) {
     for (const int n : {40, 4000}) {
         GradientImages images;
@@ -186,12 +187,12 @@ TEST(Fireflies, AreNotClampedAtManySamples) {
     }
 }
 
-/// Samples of uniform noise, on both sides of an edge.
-TEST(Fireflies, AreNoneInUniformNoiseAndAtEdges) {
+/// Both sides of an edge have uniform noise.
+TEST(Fireflies, DoNotOccurInUniformNoiseAndAtEdges) {
     for (const int n : {2, 3, 16}) {
         Samples samples(n);
         std::mt19937 random(3);
-        for (RgbImage& sample : samples.of)
+        for (RgbImage& sample : samples.passes)
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x)
                     sample(x, y) =
@@ -206,7 +207,7 @@ TEST(Fireflies, AreFewInExponentialNoise) {
         Samples samples(n);
         std::mt19937 random(5);
         std::exponential_distribution<float> noise;
-        for (RgbImage& sample : samples.of)
+        for (RgbImage& sample : samples.passes)
             for (Rgb& c : sample)
                 c = Rgb(noise(random));
         const GradientImages images = samples.images();
@@ -237,13 +238,13 @@ TEST(Fireflies, AreClampedToTheSameBitsWithThreads) {
     EXPECT_TRUE(has_same_bits(one.images.dx, other.images.dx));
 }
 
-/// Neighbours of a pixel of black samples, of huge ones and of infinite ones are clamped to finite values.
+/// Clamping leaves neighbours of a pixel with black, huge or infinite samples finite.
 TEST(Fireflies, LeaveFiniteSamplesFinite) {
     for (const float value : {0.0f, 1e-38f, 1e30f, std::numeric_limits<float>::infinity()}) {
         Samples samples(4);
-        for (RgbImage& sample : samples.of)
+        for (RgbImage& sample : samples.passes)
             sample(20, 20) = Rgb(value);
-        samples.of[1](5, 5) = samples.of[1](21, 21) = Rgb(1000);
+        samples.passes[1](5, 5) = samples.passes[1](21, 21) = Rgb(1000);
         const ClampedSamples result = clamped(samples.images());
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {

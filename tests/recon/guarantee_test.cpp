@@ -39,7 +39,7 @@ TEST(Guarantee, OfADenoiserIsNotUnbiased) {
         }
 }
 
-/// The rows of the table in METHODS.md: name, guarantee and reason.
+/// Returns the rows of the table in METHODS.md: name, guarantee and reason.
 std::vector<std::array<std::string, 3>> documented_rows() {
     std::ifstream file(TESSERA_SOURCE_DIR "/METHODS.md");
     std::vector<std::array<std::string, 3>> rows;
@@ -57,7 +57,7 @@ std::vector<std::array<std::string, 3>> documented_rows() {
     return rows;
 }
 
-TEST(Guarantee, IsWhatMethodsSays) {
+TEST(Guarantee, EqualsTheTableInMethods) {
     std::vector<std::array<std::string, 3>> rows;
     for (const Norm norm : all_norms) {
         const Guarantee g = guarantee_of(norm);
@@ -67,14 +67,14 @@ TEST(Guarantee, IsWhatMethodsSays) {
     EXPECT_EQ(documented_rows(), rows);
 }
 
-TEST(Norm, HasANameOfItsOwn) {
+TEST(Norm, NamesAreUnique) {
     std::set<std::string_view> names;
     for (const Norm norm : all_norms)
         names.insert(to_string(norm));
     EXPECT_EQ(names.size(), all_norms.size());
 }
 
-TEST(Norm, ThatNeedsGradientsIsTheRawPrimalWithoutThem) {
+TEST(Norm, FallsBackToNoneWithoutGradients) {
     for (const Norm norm : all_norms) {
         EXPECT_EQ(applied(norm, true), norm);
         const bool needs_none = norm == Norm::smoothed || norm == Norm::oidn;

@@ -1,4 +1,5 @@
-// Whole pictures of `guided` and `smoothed`: errors, energy, and inputs that lack images or have invalid values.
+// Pictures of `guided` and `smoothed`: their errors and energy, also for inputs with missing images or invalid
+// values.
 #include "recon/guided/guided.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr int width = 64, height = 48;
 constexpr Norm both[] = {Norm::guided, Norm::smoothed};
 
-/// Samples with all that the stages read.
+/// Returns all images that the stages read.
 GradientImages full_images(bool is_demodulated) {
     GradientImages images = noisy_images(width, height);
     images.patch = 4;
@@ -58,7 +59,7 @@ TEST(Guided, IsIndependentOfTheUnitOfRadiance) {
         }
 }
 
-TEST(Guided, IsNearerToTheTruthThanRawSamples) {
+TEST(Guided, HasASmallerErrorThanItsInputs) {
     const RgbImage truth = steps_and_ramps(width, height);
     const GradientImages images = noisy_images(width, height);
     const auto error = [&](Norm norm) {
@@ -95,7 +96,7 @@ TEST(Guided, IsConsistent) {
     }
 }
 
-/// Half of the energy is that of fireflies: all of it is in the picture, to a few percent.
+/// Fireflies have half of the energy. The picture keeps all of it up to a few percent.
 TEST(Guided, KeepsTheEnergyOfFireflies) {
     for (const bool is_demodulated : {false, true})
         for (const Norm norm : both) {
@@ -112,7 +113,7 @@ TEST(Guided, KeepsTheEnergyOfFireflies) {
         }
 }
 
-/// The light of a picture whose samples are not negative is not negative.
+/// Pictures of non-negative samples are not negative.
 TEST(Guided, MakesNothingNegative) {
     for (const bool is_demodulated : {false, true})
         for (const Norm norm : both) {
@@ -124,7 +125,7 @@ TEST(Guided, MakesNothingNegative) {
         }
 }
 
-/// Every subset of stages that a bench may ask for.
+/// Benches switch off one stage at a time.
 TEST(Guided, IsFiniteWithoutAnyOneStage) {
     for (const bool is_demodulated : {false, true})
         for (const Norm norm : both)
@@ -156,7 +157,7 @@ TEST(Guided, OfBlackSamplesIsBlack) {
         }
 }
 
-/// One pixel is infinite, among others with fireflies.
+/// One pixel is infinite; others have fireflies.
 TEST(Guided, OfAnInfiniteSampleIsFiniteElsewhere) {
     for (const bool is_demodulated : {false, true}) {
         GradientImages images = full_images(is_demodulated);
@@ -182,7 +183,7 @@ TEST(Guided, OfPicturesOfAnySizeIsFinite) {
     }
 }
 
-/// A dark bar before a bright and noisy sky: no feature shows it, but its samples agree.
+/// A dark bar without noise in front of a bright and noisy sky. No feature shows the bar.
 TEST(Guided, KeepsADarkBarDark) {
     constexpr int bar = 46;
     const auto noise_in_tiles = [](std::uint32_t seed) {
@@ -213,7 +214,7 @@ TEST(Guided, KeepsADarkBarDark) {
         EXPECT_NEAR(mean_color(picture)[c], mean_color(images.primal)[c], 0.02);
 }
 
-/// One sample has no halves, and files may have no features: `guided` is then the weighted solution.
+/// There are no half differences after one sample, and files may have no features. `guided` is then `weighted`.
 TEST(Guided, WithoutHalvesOrFeaturesIsWeighted) {
     for (const bool has_halves : {false, true}) {
         GradientImages images = noisy_images(40, 30);
@@ -222,7 +223,8 @@ TEST(Guided, WithoutHalvesOrFeaturesIsWeighted) {
         else
             images.halves = {};
         const RgbImage guided = reconstruct(images, {Norm::guided}).image;
-        EXPECT_LT(relative_difference(guided, reconstruct(images, {Norm::weighted}).image), 5e-3); // more steps
+        // `weighted` takes more steps.
+        EXPECT_LT(relative_difference(guided, reconstruct(images, {Norm::weighted}).image), 5e-3);
     }
 }
 

@@ -1,4 +1,4 @@
-// Halos: what a firefly changes in the rest of a picture.
+// Halos: how a firefly changes the rest of a picture.
 #include "recon/metrics/halo.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr int width = 48, height = 36, samples = 10;
 
-/// A wall of radiance 1 in tiles of 4. One sample of the tile at (20, 16) is a firefly; gradients do not show it.
+/// Returns a wall of radiance 1 with tiles of 4x4 pixels. One sample of the tile at (20, 16) is a firefly, which
+/// is not in the gradients.
 GradientImages wall_with_firefly(float radiance) {
     GradientImages images;
     BrightestSamples& b = images.brightest;
@@ -34,16 +35,16 @@ TEST(Halo, IsFoundAroundTheBrightestSample) {
     const std::optional<Halo> halo = measure_halo(wall_with_firefly(1000), {.norm = Norm::none}, serial_for);
     ASSERT_TRUE(halo);
     EXPECT_TRUE((PixelRect{20, 16, 24, 20}.contains(halo->spike)));
-    EXPECT_FALSE(measure_halo(wall_with_firefly(1), {}, serial_for)); // no sample is above the others
+    EXPECT_FALSE(measure_halo(wall_with_firefly(1), {}, serial_for)); // no sample is brighter than the others
     GradientImages large = wall_with_firefly(1000);
     large.patch = 48; // the square is the whole picture
     EXPECT_FALSE(measure_halo(large, {}, serial_for));
-    GradientImages unknown = wall_with_firefly(1000);
-    unknown.brightest = {};
-    EXPECT_FALSE(measure_halo(unknown, {}, serial_for));
+    GradientImages without_samples = wall_with_firefly(1000);
+    without_samples.brightest = {};
+    EXPECT_FALSE(measure_halo(without_samples, {}, serial_for));
 }
 
-/// Without a solver, nothing leaves the tile. L2 puts a blob around it, and redistribution an even glow.
+/// `none` keeps the energy in the tile. `l2` spreads a blob around it, and redistribution a uniform glow.
 TEST(Halo, DistinguishesABlobFromRedistributedEnergy) {
     const GradientImages images = wall_with_firefly(1000);
     const auto halo = [&](Norm norm) { return *measure_halo(images, {.norm = norm}, serial_for); };
@@ -55,7 +56,7 @@ TEST(Halo, DistinguishesABlobFromRedistributedEnergy) {
     EXPECT_LT(smoothed.peak, 0.5 * l2.peak);
 }
 
-/// The mean of the other samples replaces the brightest sample; variances are those of the others.
+/// The mean of the other samples replaces the brightest sample, and variances are over the other samples.
 TEST(Halo, WithoutTheBrightestSampleIsTheMeanOfTheOthers) {
     const GradientImages without = without_brightest(wall_with_firefly(1000), {20, 16, 24, 20});
     for (const Rgb& c : without.primal)

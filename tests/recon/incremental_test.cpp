@@ -1,4 +1,4 @@
-// Incremental reconstruction: a picture of a few samples more uses what was found about an earlier one.
+// Incremental reconstruction: pictures of a few more samples reuse the weights of an earlier picture.
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int width = 70, height = 50;
 
-/// Images of so many samples, with fireflies.
+/// Returns images of so many samples, with fireflies.
 GradientImages images_of(int samples, std::uint32_t seed = 3) {
     GradientImages images = noisy_images(width, height, 1, seed);
     images.patch = 4;
@@ -29,7 +29,7 @@ ReconstructionSettings settings_of(Norm norm) {
     return {.norm = norm};
 }
 
-/// Makes two pictures, so that the reconstructor keeps what it found about the second.
+/// Makes two pictures. The reconstructor keeps the weights of the second one.
 void make_two(const GradientImages& images, const ReconstructionSettings& settings, Reconstructor& reconstructor) {
     reconstructor.reconstruct(images, settings);
     reconstructor.reconstruct(images, settings);
@@ -37,7 +37,7 @@ void make_two(const GradientImages& images, const ReconstructionSettings& settin
 
 constexpr Norm incremental[] = {Norm::guided, Norm::smoothed};
 
-/// `smoothed` has no solver, whose start would differ.
+/// Only for `smoothed`: the solver of `guided` would start from another picture.
 TEST(Incremental, GivesTheSameBitsForTheSameSamples) {
     const GradientImages images = images_of(8);
     Reconstructor reconstructor;
@@ -71,50 +71,52 @@ TEST(Incremental, TakesFewerStepsOfTheSolver) {
               reconstruct(images, settings_of(Norm::guided)).iterations);
 }
 
-/// Whether the third picture uses what was found about the first two, which are of `before`.
+/// Returns whether the picture of `images` with `next_settings` uses the weights of two pictures of `before`.
+/// @param between  called before the third picture
 bool goes_on(const GradientImages& before, const GradientImages& images, const ReconstructionSettings& settings,
-             const ReconstructionSettings& asked, const std::function<void(Reconstructor&)>& between = {}) {
+             const ReconstructionSettings& next_settings,
+             const std::function<void(Reconstructor&)>& between = {}) {
     Reconstructor reconstructor;
     make_two(before, settings, reconstructor);
     if (between)
         between(reconstructor);
-    const Reconstruction third = reconstructor.reconstruct(images, asked);
-    if (asked.norm == Norm::smoothed) {
-        EXPECT_EQ(has_same_bits(third.image, reconstruct(images, asked).image), !third.goes_on);
+    const Reconstruction third = reconstructor.reconstruct(images, next_settings);
+    if (next_settings.norm == Norm::smoothed) {
+        EXPECT_EQ(has_same_bits(third.image, reconstruct(images, next_settings).image), !third.goes_on);
     }
     return third.goes_on;
 }
 
-TEST(Incremental, EndsWhereThePictureIsAnother) {
-    const GradientImages before = images_of(8), more = images_of(9, 4);
+TEST(Incremental, EndsWithOtherSettingsOrSamples) {
+    const GradientImages before = images_of(8), after = images_of(9, 4);
     for (const Norm norm : incremental) {
         const ReconstructionSettings settings = settings_of(norm);
         ReconstructionSettings softer = settings;
         softer.alpha = 0.1f;
-        EXPECT_TRUE(goes_on(before, more, settings, settings));
-        EXPECT_FALSE(goes_on(before, images_of(10, 4), settings, settings)); // a quarter more
+        EXPECT_TRUE(goes_on(before, after, settings, settings));
+        EXPECT_FALSE(goes_on(before, images_of(10, 4), settings, settings)); // a quarter more samples
         EXPECT_FALSE(goes_on(before, images_of(7, 4), settings, settings));
-        EXPECT_FALSE(goes_on(before, more, settings, softer));
-        EXPECT_FALSE(goes_on(before, more, settings, settings, [](Reconstructor& r) { r.forget(); }));
-        EXPECT_FALSE(goes_on(before, more, settings, settings, [](Reconstructor& r) { r.set_keeps(false); }));
-        EXPECT_FALSE(goes_on(before, more, settings, settings,
+        EXPECT_FALSE(goes_on(before, after, settings, softer));
+        EXPECT_FALSE(goes_on(before, after, settings, settings, [](Reconstructor& r) { r.forget(); }));
+        EXPECT_FALSE(goes_on(before, after, settings, settings, [](Reconstructor& r) { r.set_keeps(false); }));
+        EXPECT_FALSE(goes_on(before, after, settings, settings,
                              [](Reconstructor& r) { r.set_parameters(GuidedParameters()); }));
-        EXPECT_FALSE(goes_on(before, more, settings, settings,
+        EXPECT_FALSE(goes_on(before, after, settings, settings,
                              [&](Reconstructor& r) { r.reconstruct(before, settings_of(Norm::l2)); }));
-        EXPECT_FALSE(goes_on(before, more, settings, settings, [&](Reconstructor& r) {
-            r.reconstruct(noisy_images(30, 20), settings); // of another size
+        EXPECT_FALSE(goes_on(before, after, settings, settings, [&](Reconstructor& r) {
+            r.reconstruct(noisy_images(30, 20), settings); // another size
         }));
-        EXPECT_FALSE(goes_on(before, more, settings, settings, [&](Reconstructor& r) {
+        EXPECT_FALSE(goes_on(before, after, settings, settings, [&](Reconstructor& r) {
             std::stop_source stop;
             stop.request_stop();
-            r.reconstruct(more, settings, serial_for, SolveWatch(stop.get_token()));
+            r.reconstruct(after, settings, serial_for, SolveWatch(stop.get_token()));
         }));
-        Reconstructor once; // nothing is kept of the first picture: most have no second
+        Reconstructor once; // keeps nothing of the first picture, because often no second one follows
         once.reconstruct(before, settings);
         EXPECT_EQ(once.bytes_kept(), 0u);
-        EXPECT_FALSE(once.reconstruct(more, settings).goes_on);
+        EXPECT_FALSE(once.reconstruct(after, settings).goes_on);
         EXPECT_GT(once.bytes_kept(), 0u);
-        Reconstructor early; // with four samples each more is a quarter
+        Reconstructor early; // at four samples, each further one adds a quarter
         make_two(images_of(4), settings, early);
         EXPECT_EQ(early.bytes_kept(), 0u);
     }
@@ -135,17 +137,17 @@ TEST(Incremental, EndsWhereImagesAreAddedOrRemoved) {
     };
     for (const Norm norm : incremental)
         for (const Change& change : changes) {
-            GradientImages before = images_of(8), more = images_of(9, 4);
-            EXPECT_TRUE(goes_on(before, more, settings_of(norm), settings_of(norm)));
-            change(more);
-            EXPECT_FALSE(goes_on(before, more, settings_of(norm), settings_of(norm))) << to_string(norm);
+            GradientImages before = images_of(8), after = images_of(9, 4);
+            EXPECT_TRUE(goes_on(before, after, settings_of(norm), settings_of(norm)));
+            change(after);
+            EXPECT_FALSE(goes_on(before, after, settings_of(norm), settings_of(norm))) << to_string(norm);
             change(before);
             EXPECT_FALSE(goes_on(before, images_of(9, 4), settings_of(norm), settings_of(norm)))
                 << to_string(norm);
         }
 }
 
-/// The filter leaves an infinite picture as it is, so that it finds nothing about it.
+/// The filter leaves an infinite picture unchanged, and finds no weights.
 TEST(Incremental, DoesNotStartFromAnInfinitePicture) {
     const ReconstructionSettings settings = settings_of(Norm::smoothed);
     const auto infinite = [](GradientImages images) {
@@ -177,7 +179,7 @@ TEST(Incremental, OfAnInfiniteSampleIsFiniteElsewhere) {
     EXPECT_TRUE(std::isfinite(third.image(30, 20).g) && std::isfinite(third.image(20, 30).g));
 }
 
-/// A black picture, and then light: what was found about the black one must not lose the light's energy.
+/// The weights of a black picture must not lose the energy of the next one.
 TEST(Incremental, FromABlackPictureKeepsTheEnergy) {
     const auto without_brightest = [](GradientImages images) {
         const int samples = images.brightest.samples;

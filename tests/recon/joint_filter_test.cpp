@@ -42,7 +42,7 @@ RgbImage noise(std::uint32_t seed, float deviation) {
     return random_image(width, height, seed, 0, deviation);
 }
 
-/// Noise that the pixels of a tile of 6x6 share.
+/// Returns noise that is equal within each tile of 6x6 pixels.
 RgbImage noise_in_tiles(std::uint32_t seed, float deviation) {
     const RgbImage values = noise(seed, deviation);
     RgbImage tiles(width, height);
@@ -66,7 +66,7 @@ TEST(JointFilter, RemovesNoise) {
     }
 }
 
-/// Both halves of the samples agree on every detail.
+/// The half differences are 0, so all detail stays.
 TEST(JointFilter, KeepsAPictureWithoutNoise) {
     const RgbImage picture = random_image(width, height, 5, 1, 0.2f), none(width, height, Rgb(0));
     EXPECT_LT(relative_difference(filtered({picture, none}, even_features()), picture), 1e-5);
@@ -89,9 +89,9 @@ TEST(JointFilter, IsConsistent) {
     }
 }
 
-/// A chequered light that no feature shows, with as much noise: pairs of pixels hardly distinguish the two,
-/// squares of pairs do.
-TEST(JointFilter, KeepsPatternsThatNoiseHidesBetweenTwoPixels) {
+/// A chequered pattern that no feature shows, hardly stronger than the noise. Pairs of pixels do not separate the
+/// two; means over squares of pairs, METHODS (48), do.
+TEST(JointFilter, KeepsPatternsThatNoiseHidesInPairsOfPixels) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
@@ -101,7 +101,7 @@ TEST(JointFilter, KeepsPatternsThatNoiseHidesBetweenTwoPixels) {
     EXPECT_LT(relative_rms_difference(result, truth), 0.65 * relative_rms_difference(picture, truth));
 }
 
-/// A few pixels have most of the noise: they differ from all around, but the squares around them do not.
+/// A few pixels have most of the noise. They differ from their neighbours, but squares around them do not.
 TEST(JointFilter, RemovesNoiseWithLongTails) {
     const auto make = [](std::uint32_t seed) {
         RgbImage image = noise(seed, 0.2f);
@@ -114,7 +114,7 @@ TEST(JointFilter, RemovesNoiseWithLongTails) {
     EXPECT_LT(rms(filtered({picture, make(2)}, even_features()), Rgb(1)), 0.3 * rms(picture, Rgb(1)));
 }
 
-/// Light varies from pixel to pixel with little noise; a few noisy pixels must not decide for the pixels around.
+/// Light varies from pixel to pixel and has little noise. A few noisy pixels must not decide for their neighbours.
 TEST(JointFilter, KeepsDetailBesideAFewNoisyPixels) {
     const auto is_noisy = [](int x, int y) { return (5 * x + 7 * y) % 53 == 0; };
     RgbImage truth(width, height);
@@ -161,7 +161,7 @@ TEST(JointFilter, LetsNoLightCrossDifferencesOfFeatures) {
         const RgbImage result = filtered({picture, half}, features);
         for (int y = 0; y < height; ++y)
             for (int x = width / 2; x < width; ++x)
-                ASSERT_NEAR(result(x, y).g, 0, 3e-6) // the ridge of the regression
+                ASSERT_NEAR(result(x, y).g, 0, 3e-6) // from the ridge of the regression
                     << feature << ": " << x << " " << y;
     }
 }
@@ -181,7 +181,7 @@ TEST(JointFilter, FiltersLightAndKeepsTextures) {
     EXPECT_LT(relative_rms_difference(result, truth), 0.15 * relative_rms_difference(picture, truth));
 }
 
-/// The image with left and right exchanged.
+/// Returns the image with left and right exchanged.
 RgbImage mirrored(const RgbImage& image) {
     RgbImage result(image.width(), image.height());
     for (int y = 0; y < image.height(); ++y)
@@ -190,15 +190,15 @@ RgbImage mirrored(const RgbImage& image) {
     return result;
 }
 
-/// No direction has priority: a mirrored or transposed picture is filtered to the mirrored or transposed result.
+/// The filter has no preferred direction: it commutes with mirroring and transposition.
 TEST(JointFilter, CommutesWithMirrors) {
     RgbImage picture(width, height), half(width, height);
-    const RgbImage one = noise(1, 1), other = noise(2, 1);
+    const RgbImage picture_noise = noise(1, 1), half_noise = noise(2, 1);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const float deviation = x < width / 2 && y < height / 3 ? 0.9f : 1e-4f;
-            picture(x, y) = Rgb(1) + deviation * one(x, y);
-            half(x, y) = deviation * other(x, y);
+            picture(x, y) = Rgb(1) + deviation * picture_noise(x, y);
+            half(x, y) = deviation * half_noise(x, y);
         }
     using Map = std::function<RgbImage(const RgbImage&)>;
     const Map transposed = [](const RgbImage& image) {
@@ -208,13 +208,13 @@ TEST(JointFilter, CommutesWithMirrors) {
                 result(y, x) = image(x, y);
         return result;
     };
-    constexpr double rounding = 1e-4; // weights are bytes, and sums have another order
+    constexpr double rounding = 1e-4; // weights are bytes, and the order of sums differs
     const RgbImage result = filtered({picture, half}, {});
     for (const Map& map : {Map(mirrored), transposed})
         EXPECT_LT(relative_difference(filtered({map(picture), map(half)}, {}), map(result)), rounding);
 }
 
-/// Rows are filtered in chunks from the left; the mirrored picture has other chunks.
+/// Rows are filtered in chunks from the left. The mirrored picture has other chunks and must have the same result.
 TEST(JointFilter, ShowsNoChunksOfRows) {
     constexpr int wide = 1300, high = 24;
     const RgbImage picture = random_image(wide, high, 1, 1, 0.3f), half = random_image(wide, high, 2, 0, 0.3f);
@@ -222,7 +222,7 @@ TEST(JointFilter, ShowsNoChunksOfRows) {
     EXPECT_LT(relative_difference(filtered({mirrored(picture), mirrored(half)}, {}), mirrored(result)), 1e-4);
 }
 
-/// Thin black bars that no feature shows.
+/// The picture has thin black bars that no feature shows.
 TEST(JointFilter, MakesNothingNegative) {
     RgbImage picture = sum_of(RgbImage(width, height, Rgb(1)), noise_in_tiles(3, 0.5f)),
              half = noise_in_tiles(4, 0.5f);
@@ -248,15 +248,14 @@ TEST(JointFilter, IsFiniteForAnyPicture) {
                 ASSERT_TRUE(is_finite(c)) << value << " " << w << "x" << h;
 }
 
-/// A picture that is not finite comes back as it is.
-TEST(JointFilter, LeavesAnInfinitePictureAsItIs) {
+TEST(JointFilter, LeavesAnInfinitePictureUnchanged) {
     RgbImage picture = sum_of(RgbImage(width, height, Rgb(1)), noise(1, 0.3f));
     picture(20, 20) = Rgb(std::numeric_limits<float>::infinity());
     EXPECT_TRUE(has_same_bits(filtered({picture, noise(2, 0.3f)}, even_features()), picture));
 }
 
-/// A fit that was found with noise filters the same picture to the same bits, and twice the picture to twice that.
-TEST(JointFilter, WithAFitIsLinear) {
+/// With a fit, the filter gives the same bits for the same picture, and twice the result for twice the picture.
+TEST(JointFilter, WithAFitIsHomogeneous) {
     const FeatureImages features = even_features();
     const RgbImage picture = sum_of(RgbImage(width, height, Rgb(1)), noise(1, 0.3f));
     const GuidedParameters parameters;
@@ -268,7 +267,7 @@ TEST(JointFilter, WithAFitIsLinear) {
     };
     const RgbImage result = filter_by_fit(picture, noise(2, 0.3f));
     ASSERT_FALSE(fit.empty());
-    // The regression weights pixels by the brightness, so that it is linear up to a factor alone.
+    // The weights of the regression depend on brightness, so the filter is homogeneous only.
     EXPECT_TRUE(has_same_bits(filter_by_fit(picture, {}), result));
     RgbImage twice = picture, twice_result = result;
     for (RgbImage* image : {&twice, &twice_result})

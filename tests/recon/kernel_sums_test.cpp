@@ -1,4 +1,4 @@
-// Means over kernels, compared with their definition.
+// Means over kernels against their definition.
 #include "recon/guided/kernel_sums.h"
 #include "tests/recon/test_images.h"
 
@@ -21,7 +21,7 @@ Plane plane_of(int width, int height, std::uint32_t seed) {
     return plane;
 }
 
-/// Weights of pairs, also of those that reach beyond the picture.
+/// Returns random weights of all pairs, also of pairs that reach beyond the picture.
 PairWeights random_weights(int width, int height) {
     PairWeights weights;
     std::mt19937 numbers(10);

@@ -1,3 +1,4 @@
+// The cosine transform of many lines side by side, against its definition.
 #include "recon/solvers/lane_dct.h"
 
 #include <cmath>
@@ -17,13 +18,13 @@ struct Buffer {
 
 class LaneDctSizes : public testing::TestWithParam<int> {};
 
-TEST_P(LaneDctSizes, ForwardEqualsTheSumAndInverseGivesTheLinesBack) {
+TEST_P(LaneDctSizes, ForwardEqualsTheSumAndInverseReturnsTheLines) {
     const int size = GetParam();
     const LaneDct dct(size);
     Buffer lines(size), scratch(size);
     std::mt19937 engine(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
-    std::vector<float> line(size); // that of the last lane of im
+    std::vector<float> line(size); // imaginary part of the last lane
     for (int x = 0; x < size; ++x) {
         for (int l = 0; l < lanes; ++l) {
             lines.re[dct.slot(x) * lanes + l] = uniform(engine);

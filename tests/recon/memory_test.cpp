@@ -1,4 +1,4 @@
-// The memory that reconstructions announce, compared with the memory that they take.
+// The predicted memory of reconstructions against the memory that they take.
 
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -19,12 +19,12 @@ std::size_t bytes_in_use() {
     return info.uordblks + info.hblkhd;
 }
 
-TEST(ReconstructionMemory, IsAboutWhatIsAnnounced) {
+TEST(ReconstructionMemory, IsAboutThePredicted) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "sanitizers have their own allocators";
 #endif
     for (const auto& [width, components] :
-         {std::pair{480, 0}, {499, 0}, {480, 4}}) { // 499 is solved on 500 columns
+         {std::pair{480, 0}, {499, 0}, {480, 4}}) { // a width of 499 is padded to 500
         GradientImages images = noisy_images(width, 200);
         images.patch = 3;
         if (components == 0)
@@ -41,35 +41,36 @@ TEST(ReconstructionMemory, IsAboutWhatIsAnnounced) {
             if (norm == Norm::oidn)
                 continue; // needs a library that may be missing
             Reconstructor reconstructor;
-            const double announced = static_cast<double>(reconstructor.bytes_for(size, norm));
+            const double predicted = static_cast<double>(reconstructor.bytes_for(size, norm));
             const std::size_t before = bytes_in_use();
-            std::size_t most = before;
+            std::size_t peak = before;
             const ParallelFor watched = [&](int count, const std::function<void(int)>& body) {
-                most = std::max(most, bytes_in_use());
+                peak = std::max(peak, bytes_in_use());
                 serial_for(count, body);
-                most = std::max(most, bytes_in_use());
+                peak = std::max(peak, bytes_in_use());
             };
             const Reconstruction result = reconstructor.reconstruct(images, {norm, 0.2f}, watched);
-            const double taken = static_cast<double>(std::max(most, bytes_in_use()) - before);
-            EXPECT_GT(announced, 0.95 * taken) << to_string(norm) << " " << width << " " << components;
+            const double taken = static_cast<double>(std::max(peak, bytes_in_use()) - before);
+            EXPECT_GT(predicted, 0.95 * taken) << to_string(norm) << " " << width << " " << components;
             const double image = static_cast<double>(sizeof(Rgb)) * width * 200;
-            if (components == 0) { // components of a basis have no fireflies, for which memory is announced
-                EXPECT_LT(announced, 1.4 * taken + 1.1 * image) << to_string(norm) << " " << width;
+            if (components == 0) { // the prediction includes fireflies, which are not clamped with components
+                EXPECT_LT(predicted, 1.4 * taken + 1.1 * image) << to_string(norm) << " " << width;
             }
-            // Solvers that it has are not counted again.
+            // The prediction excludes solvers that exist already.
             const double again = static_cast<double>(reconstructor.bytes_for(size, norm));
             const bool has_solver = norm != Norm::none && norm != Norm::uniform && norm != Norm::smoothed;
-            EXPECT_EQ(again < announced, has_solver) << to_string(norm);
-            // A fit is kept from the second picture on.
+            EXPECT_EQ(again < predicted, has_solver) << to_string(norm);
+            // The reconstructor keeps a fit from the second picture on.
             const double kept = static_cast<double>(Reconstructor::bytes_to_keep(width, 200));
-            const std::size_t then = most = bytes_in_use();
+            const std::size_t before_second = peak = bytes_in_use();
             reconstructor.reconstruct(images, {norm, 0.2f}, watched);
-            const std::size_t after = bytes_in_use();
+            const std::size_t after_second = bytes_in_use();
             reconstructor.reconstruct(images, {norm, 0.2f}, watched);
-            const double more = static_cast<double>(std::max(most, bytes_in_use()) - then);
-            EXPECT_GT(again + kept, 0.95 * more) << to_string(norm) << " " << width << " " << components;
-            EXPECT_NEAR(static_cast<double>(after - then), static_cast<double>(reconstructor.bytes_kept()),
-                        20.0 * width * 200) // the picture itself, and a few vectors
+            const double taken_more = static_cast<double>(std::max(peak, bytes_in_use()) - before_second);
+            EXPECT_GT(again + kept, 0.95 * taken_more) << to_string(norm) << " " << width << " " << components;
+            EXPECT_NEAR(static_cast<double>(after_second - before_second),
+                        static_cast<double>(reconstructor.bytes_kept()),
+                        20.0 * width * 200) // the picture and a few vectors
                 << to_string(norm);
         }
     }

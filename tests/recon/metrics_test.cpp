@@ -1,3 +1,4 @@
+// Error metrics, and measures against two noisy references.
 #include "recon/metrics/metrics.h"
 #include "tests/recon/test_images.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 using namespace test;
 
-TEST(Metrics, OfKnownImages) {
+TEST(Metrics, AgreeWithKnownValues) {
     const RgbImage reference(4, 3, Rgb(2)), image(4, 3, Rgb(3));
     const ErrorMetrics m = measure_error(image, reference);
     EXPECT_NEAR(m.relative_mse, 1 / 4.001, 1e-12);
@@ -31,7 +32,7 @@ TEST(Metrics, AreMeansOverChannels) {
     EXPECT_NEAR(m.relative_mse, 9.0 / 6 / 0.001, 1e-8);
 }
 
-TEST(Metrics, OfEqualImagesAreNil) {
+TEST(Metrics, OfEqualImagesAreZero) {
     const RgbImage image = random_image(13, 7, 2, 5);
     const ErrorMetrics m = measure_error(image, image);
     EXPECT_EQ(m.relative_mse, 0);
@@ -39,7 +40,7 @@ TEST(Metrics, OfEqualImagesAreNil) {
     EXPECT_EQ(m.mean_ratio, 1);
 }
 
-TEST(Metrics, TrimmedLeavesTheWorstPixelsOut) {
+TEST(Metrics, TrimmedLeavesOutTheWorstPixels) {
     const RgbImage reference(200, 100, Rgb(1)); // 0.01 % are 2 pixels
     RgbImage image(200, 100, Rgb(1.1f));
     image(3, 4) = Rgb(1e6f);
@@ -49,7 +50,7 @@ TEST(Metrics, TrimmedLeavesTheWorstPixelsOut) {
     EXPECT_NEAR(m.relative_mse_trimmed, 0.01 / 1.001, 1e-6);
 }
 
-TEST(Metrics, PixelsThatAreNotFiniteAreCounted) {
+TEST(Metrics, CountInvalidPixels) {
     const RgbImage reference(200, 100, Rgb(1));
     RgbImage image(reference);
     image(3, 4).g = NAN;
@@ -60,7 +61,7 @@ TEST(Metrics, PixelsThatAreNotFiniteAreCounted) {
     EXPECT_EQ(m.relative_mse_trimmed, 0);
 }
 
-TEST(Metrics, RefuseOtherSizes) {
+TEST(Metrics, RejectDifferentSizes) {
     EXPECT_THROW(measure_error(RgbImage(2, 3), RgbImage(3, 2)), std::invalid_argument);
     EXPECT_THROW(measure_error(RgbImage(), RgbImage()), std::invalid_argument);
     EXPECT_THROW(measure_floor_free_error(RgbImage(2, 3), RgbImage(2, 3), RgbImage(3, 3)), std::invalid_argument);
@@ -83,19 +84,19 @@ TEST(FloorFreeError, IsUnbiased) {
     for (std::uint32_t i = 0; i < rounds; ++i) {
         const RgbImage image = noisy(3 * i, 0.1f), r1 = noisy(3 * i + 1, 0.05f), r2 = noisy(3 * i + 2, 0.05f);
         const FloorFreeError error = measure_floor_free_error(image, r1, r2);
-        // Against one noisy reference the error has a floor.
+        // Against one noisy reference, the error includes the noise of the reference.
         EXPECT_NEAR(measure_error(image, r1).relative_mse, 0.0125, 0.0005);
         sum += error.relative_mse;
         variance += error.standard_error * error.standard_error;
     }
-    // (I - t)^2 is 0.01 in the mean; 1 / (r^2 + epsilon) is 1 + 3 var(r) - epsilon, var(r) = 0.00125, to first
-    // order.
+    // The mean of (I - t)^2 is 0.01. To first order, the mean of 1 / (r^2 + epsilon) is 1 + 3 var(r) - epsilon,
+    // with var(r) = 0.00125.
     const double expected = 0.01 * (1 + 3 * 0.00125 - 0.001);
     EXPECT_NEAR(sum / rounds, expected, 4 * std::sqrt(variance) / rounds);
     EXPECT_LT(std::sqrt(variance) / rounds, 1e-4 * 0.5);
 }
 
-TEST(FloorFreeError, IsNilForTheTruthWithinItsStandardError) {
+TEST(FloorFreeError, OfTheTruthIsZeroWithinItsStandardError) {
     const RgbImage truth(160, 120, Rgb(1));
     double squares = 0;
     constexpr int rounds = 30;
@@ -105,13 +106,14 @@ TEST(FloorFreeError, IsNilForTheTruthWithinItsStandardError) {
         const FloorFreeError error = measure_floor_free_error(truth, r1, r2);
         squares += std::pow(error.relative_mse / error.standard_error, 2);
     }
-    // The sum of 30 squares of about standard normal numbers.
+    // Sum of 30 squares of nearly standard normal numbers.
     EXPECT_GT(squares, 10);
     EXPECT_LT(squares, 65);
 }
 
-/// References as noisy as the dark half is bright: sorted and judged by the same one, it would look too bright.
-TEST(EnergyChange, IsThatOfTheQuarters) {
+/// The noise of the references is as large as the dark quarter is bright. If one reference both sorted the pixels
+/// and measured their change, dark pixels would appear too bright.
+TEST(EnergyChange, IsMeasuredByQuarters) {
     constexpr int width = 128, height = 128;
     RgbImage truth(width, height), image(width, height);
     for (int y = 0; y < height; ++y)
@@ -135,8 +137,8 @@ TEST(EnergyChange, IsThatOfTheQuarters) {
         EXPECT_NEAR(c, 0, 1e-9);
 }
 
-/// All pixels alike but for the noise of the references: in no quarter is the image too bright or too dark.
-TEST(EnergyChange, TheNoiseOfTheReferencesIsNoChange) {
+/// The truth is constant: noise of the references must not make any quarter appear too bright or too dark.
+TEST(EnergyChange, IgnoresTheNoiseOfTheReferences) {
     const RgbImage image(160, 160, Rgb(1));
     RgbImage r1 = test::random_image(160, 160, 3, 1, 0.5f), r2 = test::random_image(160, 160, 4, 1, 0.5f);
     for (const double c : measure_energy_change(image, r1, r2))
@@ -144,7 +146,7 @@ TEST(EnergyChange, TheNoiseOfTheReferencesIsNoChange) {
     EXPECT_GT(measure_energy_change(image, r1, r1)[0], 0.3);
 }
 
-TEST(ReferenceError, IsThatOfTheMeanOfTwo) {
+TEST(ReferenceError, IsTheErrorOfTheMeanOfTwo) {
     const RgbImage truth(160, 120, Rgb(1));
     const RgbImage r1 = plus(truth, random_image(160, 120, 1, 0, 0.1f));
     const RgbImage r2 = plus(truth, random_image(160, 120, 2, 0, 0.1f));
@@ -154,7 +156,7 @@ TEST(ReferenceError, IsThatOfTheMeanOfTwo) {
     const FloorFreeError known = measure_reference_error(r1, r2);
     EXPECT_NEAR(known.relative_mse, measure_error(mean, truth).relative_mse, 5 * known.standard_error);
     EXPECT_NEAR(known.relative_mse, 0.005, 0.0003);
-    // Measured by its own halves the mean has minus its error.
+    // Against its own halves, the mean has minus this error.
     EXPECT_NEAR(known.relative_mse, -measure_floor_free_error(mean, r1, r2).relative_mse, 1e-7);
 }
 

@@ -1,4 +1,4 @@
-// Open Image Denoise, which is searched for at run time.
+// Open Image Denoise, whose library is found at run time.
 #include "recon/picture/oidn.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -41,7 +41,7 @@ TEST(Oidn, NamesTheVariableThatFindsTheLibrary) {
         GTEST_SKIP() << "the library is installed";
     try {
         reconstruct(noisy_images(8, 8), {Norm::oidn});
-        FAIL() << "without the library";
+        FAIL() << "no error without the library";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("TESSERA_OIDN"), std::string::npos) << error.what();
     }

@@ -1,3 +1,4 @@
+// The direct solver of `l2`, METHODS (33), against a sparse solver.
 #include "recon/solvers/poisson_direct.h"
 #include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"
@@ -96,7 +97,7 @@ TEST(PoissonSolver, ConstantImageStaysConstant) {
     }
 }
 
-TEST(PoissonSolver, DoesNotLookAtGradientsBeyondTheBorder) {
+TEST(PoissonSolver, IgnoresGradientsAcrossTheBorder) {
     Inputs inputs(37, 23);
     const RgbImage expected = solve(inputs.problem(0.2f));
     for (int y = 0; y < 23; ++y)
@@ -107,7 +108,7 @@ TEST(PoissonSolver, DoesNotLookAtGradientsBeyondTheBorder) {
     EXPECT_EQ(std::memcmp(image.data(), expected.data(), image.size() * sizeof(Rgb)), 0);
 }
 
-TEST(PoissonSolver, ServesManyProblemsOfItsSize) {
+TEST(PoissonSolver, SolvesManyProblemsOfItsSize) {
     PoissonSolver solver(61, 45);
     RgbImage image;
     for (const float alpha : {0.2f, 0.02f, 0.2f}) {
@@ -117,21 +118,21 @@ TEST(PoissonSolver, ServesManyProblemsOfItsSize) {
     }
 }
 
-/// Widths are chosen so that some do not fill whole vectors of the transforms.
-TEST(PoissonSolver, WhatIsNotFiniteLeavesNoTrace) {
+/// Some of these widths do not fill whole vectors of the transforms.
+TEST(PoissonSolver, KeepsNothingOfInvalidPixels) {
     for (int width = 60; width < 110; ++width) {
-        const Inputs good(width, 20);
-        Inputs bad = good;
-        bad.primal(7, 5) = Rgb(std::numeric_limits<float>::infinity());
+        const Inputs valid(width, 20);
+        Inputs invalid = valid;
+        invalid.primal(7, 5) = Rgb(std::numeric_limits<float>::infinity());
         PoissonSolver solver(width, 20);
         RgbImage image;
-        solver.solve(bad.problem(0.2f), image);
-        solver.solve(good.problem(0.2f), image);
-        EXPECT_EQ(relative_difference(image, solve(good.problem(0.2f))), 0) << width;
+        solver.solve(invalid.problem(0.2f), image);
+        solver.solve(valid.problem(0.2f), image);
+        EXPECT_EQ(relative_difference(image, solve(valid.problem(0.2f))), 0) << width;
     }
 }
 
-TEST(PoissonSolver, SameBitsForAnyNumberOfThreads) {
+TEST(PoissonSolver, HasTheSameBitsWithThreads) {
     for (const int width : {240, 241}) {
         const Inputs inputs(width, 101);
         for (const float alpha : {0.01f, 0.2f}) {
@@ -144,12 +145,12 @@ TEST(PoissonSolver, SameBitsForAnyNumberOfThreads) {
     }
 }
 
-TEST(PoissonSolver, RefusesAnEmptyImage) {
+TEST(PoissonSolver, RejectsAnEmptyImage) {
     EXPECT_THROW(PoissonSolver(0, 5), std::invalid_argument);
     EXPECT_THROW(PoissonSolver(5, 0), std::invalid_argument);
 }
 
-TEST(PoissonResidual, IsSmallForTheAnswerAndNotForAnother) {
+TEST(PoissonResidual, IsSmallForTheSolutionOnly) {
     const Inputs inputs(64, 33);
     const PoissonProblem problem = inputs.problem(0.2f);
     EXPECT_LT(poisson_residual(problem, solve(problem)), 1e-6);

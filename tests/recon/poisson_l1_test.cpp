@@ -1,3 +1,4 @@
+// The solver of `l1` and `mixed`, METHODS (34) and (35).
 #include "recon/solvers/poisson_l1.h"
 #include "tests/recon/test_images.h"
 
@@ -47,7 +48,7 @@ double objective(const GradientImages& g, const RgbImage& image, const L1Setting
     return sum;
 }
 
-/// Blends a with a fraction of b, as further samples change a mean.
+/// Returns a mean of a and a fraction of b, as further samples change a mean.
 GradientImages blend(GradientImages a, const GradientImages& b, float fraction) {
     for (const auto image : {&GradientImages::primal, &GradientImages::dx, &GradientImages::dy})
         for (std::size_t i = 0; i < (a.*image).size(); ++i)
@@ -59,30 +60,30 @@ double relative_mean_difference(const RgbImage& image, const RgbImage& expected)
     return glm::length(mean_color(image) - mean_color(expected)) / glm::length(mean_color(expected));
 }
 
-TEST(PoissonL1, AColdStartComesNearTheOptimum) {
+TEST(PoissonL1, AColdStartIsNearTheOptimum) {
     const GradientImages images = noisy_images(160, 90);
     for (const bool square_primal : {false, true}) {
-        const RgbImage longest = solve_cold(images, settings_of(square_primal, 2000));
+        const RgbImage optimum = solve_cold(images, settings_of(square_primal, 2000));
         const L1Settings settings{.square_primal = square_primal};
         const RgbImage image = solve_cold(images, settings);
         EXPECT_LE(settings.cold_iterations, 40);
-        EXPECT_LE(objective(images, image, settings), 1.01 * objective(images, longest, settings));
-        EXPECT_LE(relative_mean_difference(image, longest), 0.005);
+        EXPECT_LE(objective(images, image, settings), 1.01 * objective(images, optimum, settings));
+        EXPECT_LE(relative_mean_difference(image, optimum), 0.005);
     }
 }
 
-TEST(PoissonL1, AWarmStartComesNearTheOptimumOfNewerData) {
+TEST(PoissonL1, AWarmStartIsNearTheOptimumOfNewerData) {
     const GradientImages images = noisy_images(160, 90);
     const GradientImages newer = blend(images, noisy_images(160, 90, 1, 17), 0.1f);
     for (const bool square_primal : {false, true}) {
         const L1Settings settings{.square_primal = square_primal};
-        const RgbImage longest = solve_cold(newer, settings_of(square_primal, 2000));
+        const RgbImage optimum = solve_cold(newer, settings_of(square_primal, 2000));
         L1Solver solver(160, 90);
         RgbImage image;
         EXPECT_EQ(solver.solve(problem_of(images), settings, image), settings.cold_iterations);
         EXPECT_EQ(solver.solve(problem_of(newer), settings, image), 5);
-        EXPECT_LE(objective(newer, image, settings), 1.01 * objective(newer, longest, settings));
-        EXPECT_LE(relative_mean_difference(image, longest), 0.005);
+        EXPECT_LE(objective(newer, image, settings), 1.01 * objective(newer, optimum, settings));
+        EXPECT_LE(relative_mean_difference(image, optimum), 0.005);
         solver.forget();
         EXPECT_EQ(solver.solve(problem_of(newer), settings, image), settings.cold_iterations);
         EXPECT_EQ(relative_difference(image, solve_cold(newer, settings)), 0);

@@ -1,3 +1,4 @@
+// The solver of `weighted`, METHODS (37).
 #include "recon/solvers/edge_weights.h"
 #include "recon/solvers/poisson_weighted.h"
 #include "tests/recon/sparse_solver.h"
@@ -30,7 +31,7 @@ RgbImage solve(const PoissonProblem& problem, const EdgeWeights& weights, const 
     return image;
 }
 
-/// Weights from 1 down to 1e-4, and some of 0.
+/// Returns weights from 1 down to 1e-4, and some of 0.
 EdgeWeights random_weights(int width, int height) {
     const RgbImage noise = random_image(width, height, 21);
     EdgeWeights weights{Image<float>(width, height), Image<float>(width, height)};
@@ -57,14 +58,14 @@ TEST(PoissonWeighted, EqualsASparseDirectSolve) {
         }
 }
 
-TEST(PoissonWeighted, AFewStepsComeNearTheAnswer) {
+TEST(PoissonWeighted, AFewStepsAreNearTheSolution) {
     const GradientImages images = noisy_images(160, 90);
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
     const RgbImage expected = solve(problem_of(images), weights, exact);
     EXPECT_LE(relative_rms_difference(solve(problem_of(images), weights, {}), expected), 0.01);
 }
 
-TEST(PoissonWeighted, AWarmStartComesNearerToNewerData) {
+TEST(PoissonWeighted, AWarmStartIsNearerToTheSolutionOfNewerData) {
     const GradientImages images = noisy_images(160, 90);
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
     WeightedSolver solver(160, 90);
@@ -107,7 +108,7 @@ TEST(PoissonWeighted, WarmStartsFollowTheirData) {
     }
 }
 
-TEST(PoissonWeighted, StartsFromNothingAfterAStop) {
+TEST(PoissonWeighted, StartsColdAfterAStop) {
     const GradientImages images = noisy_images(60, 40);
     const EdgeWeights weights = weights_of_gradients(images, 0.2f);
     WeightedSolver solver(60, 40);
@@ -119,8 +120,8 @@ TEST(PoissonWeighted, StartsFromNothingAfterAStop) {
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights, {})), 0);
 }
 
-/// Values that floats cannot square, in rows that fill whole vectors and in others.
-TEST(PoissonWeighted, LeavesNoTraceOfHugeValues) {
+/// Squares of the values overflow. One width fills whole vectors, the other does not.
+TEST(PoissonWeighted, KeepsNothingOfHugeValues) {
     for (const int width : {60, 67}) {
         const GradientImages images = noisy_images(width, 40);
         const EdgeWeights weights = weights_of_gradients(images, 0.2f);
@@ -139,7 +140,7 @@ TEST(PoissonWeighted, LeavesNoTraceOfHugeValues) {
     }
 }
 
-TEST(PoissonWeighted, AfterABlackImageASolveIsCold) {
+TEST(PoissonWeighted, StartsColdAfterABlackImage) {
     const GradientImages images = noisy_images(60, 40);
     const RgbImage zero(60, 40);
     const GradientImages black{zero, zero, zero, zero};
@@ -151,7 +152,7 @@ TEST(PoissonWeighted, AfterABlackImageASolveIsCold) {
     EXPECT_EQ(relative_difference(image, solve(problem_of(images), weights, {})), 0);
 }
 
-/// One channel is black, and one very dark: each channel has step lengths of its own.
+/// One channel is black, and one very dark. Each channel has its own step lengths.
 TEST(PoissonWeighted, ChannelsOfAnyBrightnessStayFinite) {
     for (const auto& [width, height] : {std::pair{3, 1}, {9, 1}, {30, 1}, {8, 8}})
         for (const float alpha : {1e-4f, 0.2f}) {

@@ -1,4 +1,4 @@
-// Published reconstructions: they read raw samples alone, and some are linear in them.
+// Reconstructions that work on raw samples: they read no other images, and the unbiased ones are linear.
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int width = 70, height = 50;
 
-/// Samples with fireflies, half differences and features, of radiance or of a coefficient.
+/// Returns samples of radiance or of a coefficient, with fireflies, half differences and features.
 GradientImages raw_images(bool is_demodulated, std::uint32_t seed = 3) {
     GradientImages images = noisy_images(width, height, 1, seed);
     images.patch = 4;
@@ -24,7 +24,7 @@ GradientImages raw_images(bool is_demodulated, std::uint32_t seed = 3) {
     return images;
 }
 
-TEST(RawSamples, ArePublishedWithoutBrightestHalvesAndFeatures) {
+TEST(RawSamples, AreReconstructedWithoutImagesOfTheDenoiser) {
     for (const bool is_demodulated : {false, true})
         for (const Norm norm : all_norms) {
             if (denoises(norm))
@@ -47,13 +47,13 @@ TEST(RawSamples, OfNoneAreTheRadiancePlusDirectlyVisibleEmission) {
     }
 }
 
-/// Replaces a mean by `a` of it and `b` of another one.
+/// Replaces x by a x + b y.
 void blend(RgbImage& x, const RgbImage& y, float a, float b) {
     for (std::size_t i = 0; i < x.size(); ++i)
         x.data()[i] = a * x.data()[i] + b * y.data()[i];
 }
 
-/// Means that are a x + b y. The albedo is that of the points, which both have in common.
+/// Returns images with all means equal to a x + b y. Both have the same albedo.
 GradientImages blended(GradientImages x, const GradientImages& y, float a, float b) {
     blend(x.primal, y.primal, a, b);
     blend(x.dx, y.dx, a, b);
@@ -63,7 +63,7 @@ GradientImages blended(GradientImages x, const GradientImages& y, float a, float
     return x;
 }
 
-/// The difference of f(a x + b y) and a f(x) + b f(y).
+/// Returns the relative difference of f(a x + b y) and a f(x) + b f(y).
 double nonlinearity(Norm norm, bool is_demodulated) {
     constexpr float a = 0.75f, b = -1.5f;
     const GradientImages x = raw_images(is_demodulated, 3), y = raw_images(is_demodulated, 4);
@@ -72,7 +72,7 @@ double nonlinearity(Norm norm, bool is_demodulated) {
     return relative_difference(reconstruct(blended(x, y, a, b), {norm}).image, expected);
 }
 
-TEST(RawSamples, AreReconstructedByLinearFunctionsWhereTheResultIsUnbiased) {
+TEST(RawSamples, AreReconstructedLinearlyIfUnbiased) {
     for (const bool is_demodulated : {false, true})
         for (const Norm norm : all_norms) {
             if (norm == Norm::oidn)

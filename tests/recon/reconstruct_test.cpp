@@ -1,3 +1,4 @@
+// reconstruct() with all solvers of raw samples: exact and invalid inputs, units, progress and errors.
 #include "recon/picture/reconstruct.h"
 #include "recon/solvers/poisson_weighted.h"
 #include "tests/recon/test_images.h"
@@ -69,7 +70,8 @@ TEST(Reconstruct, ReturnsTheImageOfExactGradientsForAnyWeights) {
     EXPECT_LE(relative_rms_difference(reconstruct(images, {Norm::weighted, 0.2f}).image, image), 2e-2);
 }
 
-/// A plane with a noisy primal, as after one sample. Exact gradients have the weights of L2, outliers have less.
+/// A plane with a noisy primal and no variances, as after one sample. Exact gradients have the weights of `l2`,
+/// and outliers have smaller ones.
 TEST(Reconstruct, WithoutVariancesMistrustsOutliersOfGradients) {
     RgbImage plane(40, 30);
     for (int y = 0; y < 30; ++y)
@@ -81,7 +83,7 @@ TEST(Reconstruct, WithoutVariancesMistrustsOutliersOfGradients) {
         images.primal.data()[i] += noise.data()[i];
     images.primal_variance = Image<float>(40, 30, 1.0f); // a variance of the primal alone is not used
     const auto image = [&](Norm norm, float alpha) { return reconstruct(images, {norm, alpha}).image; };
-    const float alpha = 0.2f / GuidedParameters().alpha_scale; // weighted_alpha() makes 0.2 of it
+    const float alpha = 0.2f / GuidedParameters().alpha_scale; // METHODS (39) gives a = 0.2
     EXPECT_LE(relative_difference(image(Norm::weighted, alpha), image(Norm::l2, 0.2f)), 1e-2);
     for (std::size_t i = 0; i < noise.size(); i += 97)
         images.dx.data()[i] += 5.0f;
@@ -89,7 +91,7 @@ TEST(Reconstruct, WithoutVariancesMistrustsOutliersOfGradients) {
               0.5 * relative_rms_difference(image(Norm::l2, 0.2f), plane));
 }
 
-/// The first picture has no variances, so that its weights differ from those of the second.
+/// The first picture has no variances, so its weights differ from those of the second.
 TEST(Reconstruct, WarmStartsFollowTheFirstVariances) {
     const GradientImages second = noisy_images(40, 30);
     GradientImages first = noisy_images(40, 30, 1, 4);
@@ -100,7 +102,7 @@ TEST(Reconstruct, WarmStartsFollowTheFirstVariances) {
     EXPECT_LT(relative_rms_difference(image, reconstruct(second, {Norm::weighted, 0.2f}).image), 0.01);
 }
 
-/// A dark window frame with little noise beside bright panes with much: the frame must not take their noise.
+/// A dark window frame with little noise beside bright panes with much noise, which the frame must not take over.
 TEST(Reconstruct, KeepsDarkPixelsDarkBesideNoisyOnes) {
     constexpr int width = 60, height = 40, frame_begin = 26, frame_end = 34;
     const auto in_frame = [](int x) { return x >= frame_begin && x < frame_end; };
@@ -116,19 +118,19 @@ TEST(Reconstruct, KeepsDarkPixelsDarkBesideNoisyOnes) {
             if (x > 0)
                 images.dx_variance(x - 1, y) = 3;
         }
-    const RgbImage other = random_image(width, height, 4, 0, 1); // gradients have noise of their own
+    const RgbImage gradient_noise = random_image(width, height, 4, 0, 1); // independent of the primal's
     RgbImage noisy = images.primal;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             if (!in_frame(x))
-                noisy(x, y) = Rgb(3) + other(x, y);
+                noisy(x, y) = Rgb(3) + gradient_noise(x, y);
     images.dx = x_differences(noisy);
     images.dy = y_differences(noisy);
     const RgbImage image = reconstruct(images, {Norm::weighted, 0.2f}).image;
     for (int y = 0; y < height; ++y)
         for (int x = frame_begin + 1; x + 1 < frame_end; ++x)
             EXPECT_LE(std::abs(image(x, y).g - 0.01f), 0.05f) << x << " " << y;
-    // Published solvers may go below black there.
+    // Solvers may go below black there; `guided` may not.
     EXPECT_GE(smallest(reconstruct(images, {Norm::guided, 0.2f}).image), 0);
 }
 
@@ -185,13 +187,13 @@ TEST(Reconstruct, StopsWhenAsked) {
 TEST(Reconstruct, ReportsItsProgress) {
     const GradientImages images = noisy_images(20, 20);
     for (const Norm norm : {Norm::l1, Norm::mixed, Norm::weighted, Norm::uniform}) {
-        std::atomic<float> share = 0;
+        std::atomic<float> progress = 0;
         std::vector<float> seen;
         const ParallelFor watched = [&](int count, const std::function<void(int)>& work) {
-            seen.push_back(share);
+            seen.push_back(progress);
             serial_for(count, work);
         };
-        reconstruct(images, {norm, 0.2f}, watched, {{}, &share});
+        reconstruct(images, {norm, 0.2f}, watched, {{}, &progress});
         EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end())) << to_string(norm);
         const int steps = norm == Norm::weighted ? WeightedSettings{}.cold_iterations : 11;
         EXPECT_GE(std::set<float>(seen.begin(), seen.end()).size(), static_cast<std::size_t>(steps))

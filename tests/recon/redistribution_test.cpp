@@ -1,4 +1,4 @@
-// Redistribution of clamped energy: which pixels get it, and that none of it is lost.
+// Redistribution of clamped energy, METHODS (59) and (60): which pixels get it, and that its sum stays.
 #include "recon/guided/redistribution.h"
 #include "tests/recon/test_images.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int width = 40, height = 30;
 
-/// The picture with the energy redistributed over it.
+/// Returns the picture with the energy redistributed over it.
 RgbImage redistributed(const RgbImage& energy, RgbImage picture, const FeatureImages& features,
                        const GuidedParameters& parameters = {}, const ParallelFor& parallel_for = serial_for) {
     const FeatureKernels kernels({picture.width(), picture.height()}, features, parameters, parallel_for);
@@ -24,21 +24,21 @@ RgbImage redistributed(const RgbImage& energy, RgbImage picture, const FeatureIm
     return picture;
 }
 
-/// Pixels may get any amount of energy from pixels with similar features.
+/// Returns parameters with which pixels may get any energy from pixels with similar features.
 GuidedParameters without_limit() {
     GuidedParameters parameters;
     parameters.largest_addition = 1e6f;
     return parameters;
 }
 
-/// Pixels get no energy from pixels with similar features: all of it goes around.
-GuidedParameters around_alone() {
+/// Returns parameters with which all energy goes to the pixels around, whatever their features.
+GuidedParameters around_only() {
     GuidedParameters parameters;
     parameters.largest_addition = 0;
     return parameters;
 }
 
-/// A wall on the left and another one on the right, with other normals and albedos, under the same light.
+/// Returns the features of two walls, left and right, with different normals and albedos.
 FeatureImages two_walls() {
     FeatureImages features{RgbImage(width, height, Rgb(0.8f)), Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)),
                            Image<float>(width, height, 1.0f), Image<float>(width, height, 1.0f)};
@@ -56,7 +56,7 @@ TEST(Redistribution, FollowsBrightnessAround) {
         for (int x = 20; x < width; ++x)
             picture(x, y) = Rgb(0.1f);
     energy(19, 15) = Rgb(100, 200, 0);
-    const RgbImage result = redistributed(energy, picture, {}, around_alone());
+    const RgbImage result = redistributed(energy, picture, {}, around_only());
     EXPECT_NEAR(sum_of(result), sum_of(picture) + 300, 1e-2);
     const auto gain = [&](int x) { return static_cast<double>(result(x, 15).r - picture(x, 15).r); };
     EXPECT_LT(gain(26), 0.5 * gain(13));
@@ -74,9 +74,9 @@ TEST(Redistribution, GoesToPixelsWithSimilarFeatures) {
         for (int x = 20; x < width; ++x)
             other += static_cast<double>(result(x, y).r - features.albedo(x, y).r);
     EXPECT_LT(other, 0.1);
-    EXPECT_GT(result(3, 5).r, 0.8f + 0.2f * 6 / 600); // far away, a fifth of the mean
+    EXPECT_GT(result(3, 5).r, 0.8f + 0.2f * 6 / 600); // far away: at least a fifth of the mean gain
     EXPECT_NEAR((result(9, 12).r - 0.8f) / (result(9, 12).g - 0.8f), 2, 2e-2);
-    const auto gain_around = [&](int x, int y) { // kernels leave single pixels out
+    const auto gain_around = [&](int x, int y) { // kernels skip single pixels
         float gain = 0;
         for (int j = -2; j <= 2; ++j)
             for (int i = -2; i <= 2; ++i)
@@ -103,8 +103,8 @@ TEST(Redistribution, IsProportionalToAlbedo) {
     EXPECT_NEAR(gains[0] / gains[1], 0.8, 0.08);
 }
 
-/// An object of one pixel has no pixels with similar features: its energy must not stay there, and goes around.
-TEST(Redistribution, OfAPixelLikeNoOtherGoesAround) {
+/// No pixel has features like an object of one pixel. Its energy goes to the pixels around.
+TEST(Redistribution, OfAPixelWithUniqueFeaturesGoesAround) {
     FeatureImages features = two_walls();
     features.nearness(9, 9) = 9;
     RgbImage energy(width, height, Rgb(0));
@@ -115,7 +115,7 @@ TEST(Redistribution, OfAPixelLikeNoOtherGoesAround) {
     EXPECT_GT(result(8, 9).r, 0.85f);
 }
 
-/// One pixel in 250 finds all light of an evenly lit picture.
+/// One pixel in 250 has all energy of a uniformly lit picture.
 TEST(Redistribution, OfRareLightMakesNoNewFireflies) {
     std::mt19937 random(7);
     RgbImage energy(width, height), picture(width, height);
@@ -151,7 +151,7 @@ TEST(Redistribution, KeepsTheSumOnSmallAndBlackPictures) {
         RgbImage energy(5, 3, Rgb(0));
         energy(1, 1) = Rgb(15);
         const double before = sum_of(picture);
-        for (const GuidedParameters& parameters : {GuidedParameters(), around_alone(), without_limit()}) {
+        for (const GuidedParameters& parameters : {GuidedParameters(), around_only(), without_limit()}) {
             const RgbImage result = redistributed(energy, picture, {}, parameters);
             EXPECT_NEAR(sum_of(result), before + 45, 1e-4 + 1e-6 * before) << brightness;
             EXPECT_TRUE(std::isfinite(result(4, 2).g));

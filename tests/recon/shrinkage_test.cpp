@@ -1,4 +1,4 @@
-// Trust in the difference between a picture and a smoother one.
+// Trust in the difference between a picture and a smoother one, METHODS (52).
 #include "recon/guided/shrinkage.h"
 #include "tests/recon/test_images.h"
 
@@ -16,21 +16,21 @@ namespace {
 
 constexpr int width = 80, height = 60, radius = 4;
 
-/// A picture and its noise, of which the smoother version has neither detail nor noise.
+/// A picture with its noise, and a coarser picture without detail and noise.
 struct Case {
     NoisyPlanes finer = black_planes<NoisyPlanes>(width, height, serial_for), coarser = finer;
     Plane dark = Plane(width, height, 0.2f);
 
     /// Detail and noise with these deviations, on a brightness of 1.
     Case(float detail, float noise, std::uint32_t seed = 1) {
-        const RgbImage of_detail = random_image(width, height, seed, 0, detail),
-                       in_picture = random_image(width, height, seed + 1, 0, noise),
-                       in_halves = random_image(width, height, seed + 2, 0, noise);
+        const RgbImage detail_image = random_image(width, height, seed, 0, detail),
+                       picture_noise = random_image(width, height, seed + 1, 0, noise),
+                       half_noise = random_image(width, height, seed + 2, 0, noise);
         for (int c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < dark.size(); ++i) {
                 coarser[c].data()[i] = 1;
-                finer[c].data()[i] = 1 + of_detail.data()[i][c] + in_picture.data()[i][c];
-                finer[c + 3].data()[i] = in_halves.data()[i][c];
+                finer[c].data()[i] = 1 + detail_image.data()[i][c] + picture_noise.data()[i][c];
+                finer[c + 3].data()[i] = half_noise.data()[i][c];
             }
     }
 
@@ -101,7 +101,7 @@ TEST(Trust, IsIndependentOfTheUnitOfRadiance) {
     }
 }
 
-/// A lamp beside a wall: sizes are relative to brightness, and means are of roots.
+/// A lamp beside a wall. Differences are relative to brightness, and means are means of roots.
 TEST(Trust, IsHardlyChangedByABrightNoisyPixel) {
     Case wall(0.3f, 0.1f);
     const float before = wall.trust()(40, 30);
@@ -112,7 +112,7 @@ TEST(Trust, IsHardlyChangedByABrightNoisyPixel) {
     EXPECT_NEAR(wall.trust()(40, 30), before, 0.15);
 }
 
-/// Far from an invalid pixel, trust is what it is without it.
+/// An invalid pixel changes trust only near it.
 TEST(Trust, OfOneInvalidPixelIsLocal) {
     const Case valid(0.1f, 0.1f);
     const Plane expected = valid.trust();

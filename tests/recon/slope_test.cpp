@@ -1,3 +1,4 @@
+// Slopes of curves of error over time, in logarithmic scales.
 #include "recon/metrics/metrics.h"
 
 #include <cmath>
@@ -25,9 +26,9 @@ TEST(Slope, LeavesOutPointsWithoutALogarithm) {
     EXPECT_NEAR(log_log_slope(points).value, -1, 1e-12);
 }
 
-/// Two points a factor of e apart: the slope is their difference, and so its error at most the sum of theirs. What
-/// has no place has no error either, and with errors that are not known, the slope's is not.
-TEST(Slope, HasAtMostTheErrorsOfItsPointsTogether) {
+/// For two points a factor of e apart, the slope is the difference of their logarithms, and its error at most the
+/// sum of their errors. Points without a logarithm do not count. Without errors of points, the error is NaN.
+TEST(Slope, ErrorIsTheSumOfTheErrorsOfPoints) {
     const std::vector<glm::dvec2> points = {{1, 5}, {0, 1}, {std::numbers::e, 4}};
     const std::vector<double> errors = {0.1, 9, 0.2};
     EXPECT_NEAR(log_log_slope(points, errors).value, std::log(0.8), 1e-12);
@@ -35,7 +36,7 @@ TEST(Slope, HasAtMostTheErrorsOfItsPointsTogether) {
     EXPECT_TRUE(std::isnan(log_log_slope(points).error));
 }
 
-TEST(Slope, OfFewerThanTwoPlacesIsNaN) {
+TEST(Slope, OfFewerThanTwoAbscissasIsNaN) {
     const std::vector<glm::dvec2> one = {{2, 1}}, same = {{2, 1}, {2, 3}, {2, 5}}, useless = {{2, 1}, {3, 0}};
     EXPECT_TRUE(std::isnan(log_log_slope({}).value));
     EXPECT_TRUE(std::isnan(log_log_slope(one).value));

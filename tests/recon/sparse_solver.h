@@ -9,8 +9,8 @@
 
 namespace tessera::test {
 
-/// Solves a screened Poisson problem in double with a sparse Cholesky factorisation; gradients count with
-/// `weights`, or all with 1.
+/// Solves a screened Poisson problem in double precision with a sparse Cholesky factorisation.
+/// @param weights  of gradients; null: all 1
 inline RgbImage solve_sparse(const PoissonProblem& p, const EdgeWeights* weights = nullptr) {
     const int width = p.primal.width(), height = p.primal.height(), count = width * height;
     const double alpha_squared = static_cast<double>(p.alpha) * p.alpha;

@@ -1,4 +1,4 @@
-// Means over squares, beside their definition.
+// Means over squares against their definition.
 #include "recon/square_means.h"
 #include "tests/recon/test_images.h"
 
@@ -30,7 +30,7 @@ double mean_around(const Image<float>& values, int radius, int x, int y) {
     return sum / count;
 }
 
-TEST(SquareMeans, WideOnesAreThoseOfTheDefinition) {
+TEST(SquareMeans, WideMeansEqualTheirDefinition) {
     for (const auto& [width, height] : {std::pair(83, 21), std::pair(5, 90), std::pair(1, 1)})
         for (int radius : {0, 1, 2, 6, 38, 200}) {
             const Image<float> values = random_numbers(width, height);
@@ -44,8 +44,8 @@ TEST(SquareMeans, WideOnesAreThoseOfTheDefinition) {
         }
 }
 
-/// A pixel a billion times as bright leaves nothing to those that have it no longer in their squares.
-TEST(SquareMeans, WideOnesForgetABrightPixel) {
+/// Running sums must leave no rounding error of a pixel 10^9 times as bright outside of its squares.
+TEST(SquareMeans, WideMeansForgetABrightPixel) {
     Image<float> values(64, 64), rows(64, 64);
     std::fill(values.begin(), values.end(), 1.0f);
     values(20, 20) = 1e9f;
@@ -57,8 +57,8 @@ TEST(SquareMeans, WideOnesForgetABrightPixel) {
             }
 }
 
-/// Nor does one beside which ordinary ones are nothing, in double as well.
-TEST(SquareMeans, WideOnesForgetHugeNumbers) {
+/// The same for a value so large that 1 is lost beside it in double precision.
+TEST(SquareMeans, WideMeansForgetHugeNumbers) {
     Image<float> values(40, 90), rows(40, 90);
     std::fill(values.begin(), values.end(), 1.0f);
     values(20, 45) = 1e36f;
@@ -71,14 +71,14 @@ TEST(SquareMeans, WideOnesForgetHugeNumbers) {
             }
 }
 
-TEST(SquareMeans, SumsOfRowsAreThoseOfTheDefinition) {
-    for (const std::size_t width : {1u, 5u, 64u, 130u}) // within a strip, and of several
+TEST(SquareMeans, SumsOfRowsEqualTheirDefinition) {
+    for (const std::size_t width : {1u, 5u, 64u, 130u}) // one strip, and several
         for (const int height : {1, 2, 7, 30})
             for (const int radius : {0, 1, 3, 12}) {
                 std::vector<float> numbers(width * static_cast<std::size_t>(height + 2 * radius));
                 for (std::size_t i = 0; i < numbers.size(); ++i)
                     numbers[i] = static_cast<float>(i * i % 13);
-                const auto row = [&](int j) -> const float* { // every fifth is none
+                const auto row = [&](int j) -> const float* { // every fifth row is missing
                     EXPECT_TRUE(j >= -radius && j < height + radius) << j;
                     return (j + 5 * radius) % 5 == 2
                                ? nullptr
@@ -99,7 +99,7 @@ TEST(SquareMeans, SumsOfRowsAreThoseOfTheDefinition) {
             }
 }
 
-TEST(SquareMeans, WindowsAreSumsOfWhatStandsAStepApart) {
+TEST(SquareMeans, WindowsAreSumsOfStridedValues) {
     for (int count : {1, 2, 3, 7, 12, 13})
         for (std::size_t step : {1u, 3u}) {
             const std::size_t size = 17;

@@ -22,7 +22,7 @@
 
 namespace tessera::test {
 
-/// Normally distributed channels.
+/// Returns an image of normally distributed channels.
 inline RgbImage random_image(int width, int height, std::uint32_t seed, float mean = 0, float deviation = 1) {
     std::mt19937 engine(seed);
     std::normal_distribution<float> normal(mean, deviation);
@@ -48,7 +48,7 @@ inline RgbImage y_differences(const RgbImage& image) {
     return result;
 }
 
-/// A ParallelFor of two threads that run their iterations in descending order.
+/// ParallelFor with two threads that run their iterations in descending order.
 inline void backwards_for(int count, const std::function<void(int)>& body) {
     const auto every_second = [&](int last) {
         for (int i = last; i >= 0; i -= 2)
@@ -58,7 +58,7 @@ inline void backwards_for(int count, const std::function<void(int)>& body) {
     every_second(count - 2);
 }
 
-/// A ParallelFor with a thread for each iteration.
+/// ParallelFor with a thread for each iteration.
 inline void threads_for(int count, const std::function<void(int)>& body) {
     std::vector<std::jthread> threads;
     for (int i = count - 1; i >= 0; --i)
@@ -113,7 +113,7 @@ inline bool has_same_bits(const RgbImage& a, const RgbImage& b) {
     return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
 
-/// The largest difference of a channel, relative to the largest value of `expected`.
+/// Returns the largest difference of a channel, relative to the largest value of `expected`.
 inline double relative_difference(const RgbImage& image, const RgbImage& expected) {
     RgbImage difference(image);
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -121,7 +121,7 @@ inline double relative_difference(const RgbImage& image, const RgbImage& expecte
     return largest(difference) / largest(expected);
 }
 
-/// The root mean square difference, relative to the root mean square of `expected`.
+/// Returns the root mean square difference, relative to the root mean square of `expected`.
 inline double relative_rms_difference(const RgbImage& image, const RgbImage& expected) {
     double difference = 0, square = 0;
     for (std::size_t i = 0; i < image.size(); ++i) {
@@ -132,7 +132,7 @@ inline double relative_rms_difference(const RgbImage& image, const RgbImage& exp
     return std::sqrt(difference / square);
 }
 
-/// The picture that noisy_images() are samples of: steps and ramps.
+/// Returns a picture of steps and ramps, the truth of noisy_images().
 inline RgbImage steps_and_ramps(int width, int height) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)
@@ -141,8 +141,9 @@ inline RgbImage steps_and_ramps(int width, int height) {
     return truth;
 }
 
-/// Samples of steps and ramps with noise, and gradients with less noise and some outliers, with variances, half
-/// differences and features that show the steps.
+/// Returns noisy samples of steps_and_ramps(), and gradients with less noise and some outliers. They have
+/// variances, half differences and features that show the steps.
+/// @param scale  unit of radiance
 inline GradientImages noisy_images(int width, int height, float scale = 1, std::uint32_t seed = 3) {
     const RgbImage truth = steps_and_ramps(width, height);
     GradientImages images{truth, x_differences(truth), y_differences(truth), {}};
@@ -188,8 +189,8 @@ inline void add_fireflies(GradientImages& images, int samples, std::size_t strid
     }
 }
 
-/// Makes radiance images those of a coefficient, for an albedo of vertical stripes. The samples measure the albedo
-/// with noise, and the radiance has a covariance with it.
+/// Turns images of radiance into images of a coefficient, for an albedo of vertical stripes. The samples measure
+/// the albedo with noise, and the radiance has a covariance with it.
 inline void demodulate(GradientImages& images, std::uint32_t seed = 7) {
     const int width = images.primal.width(), height = images.primal.height();
     const RgbImage noise = random_image(width, height, seed);
@@ -216,7 +217,7 @@ inline void demodulate(GradientImages& images, std::uint32_t seed = 7) {
     images.features.albedo = albedo;
 }
 
-/// local_mean_brightness() of the light of a picture: what `guided` compares brightness with.
+/// Returns the local mean brightness of a picture over its albedo, METHODS (42).
 inline Image<float> local_brightness_of(const RgbImage& picture, const FeatureImages& features,
                                         const GuidedParameters& parameters = {},
                                         const ParallelFor& parallel_for = serial_for) {
@@ -226,7 +227,7 @@ inline Image<float> local_brightness_of(const RgbImage& picture, const FeatureIm
     return local_mean_brightness(std::move(light), parameters.local_radius, parallel_for);
 }
 
-/// Filters a picture and its noise, as `guided` does after its solver.
+/// Filters a picture and its noise with stages 6 and 7 of the denoiser.
 inline NoisyPicture filtered_with_noise(NoisyPicture picture, const FeatureImages& features,
                                         const ParallelFor& parallel_for = serial_for,
                                         const GuidedParameters& parameters = {}) {

@@ -1,3 +1,4 @@
+// Uniform control variates, METHODS (36).
 #include "recon/picture/reconstruct.h"
 #include "recon/solvers/poisson_direct.h"
 #include "tests/recon/test_images.h"
@@ -25,8 +26,8 @@ TEST(UniformControlVariates, TakesTheMeanOfFiveEstimates) {
         EXPECT_NEAR(found[c], mean[c], 1e-6);
 }
 
-/// The limit is that of L2 for a vanishing alpha.
-TEST(UniformControlVariates, ConvergesToTheGradientsAlone) {
+/// The limit of many iterations is that of `l2` for alpha to 0.
+TEST(UniformControlVariates, ConvergesToTheSolutionOfTheGradients) {
     const GradientImages g = noisy_images(17, 12);
     PoissonSolver solver(17, 12);
     RgbImage expected;

@@ -1,3 +1,4 @@
+// The multigrid preconditioner of `weighted`.
 #include "recon/solvers/poisson_weighted.h"
 #include "recon/solvers/weighted_multigrid.h"
 #include "tests/recon/test_images.h"
@@ -24,7 +25,7 @@ EdgeWeights weights_by(int width, int height, float (*weight)(int x, int y)) {
 }
 
 // Constant weights, and weak patches with a strip of weight 0.
-float even(int, int) {
+float constant(int, int) {
     return 1;
 }
 float patchy(int x, int y) {
@@ -42,7 +43,7 @@ constexpr std::pair<int, int> sizes[] = {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {37, 23
 
 /// Conjugate gradients need such a preconditioner.
 TEST(WeightedMultigrid, IsSymmetricAndPositive) {
-    for (const auto weight : {even, patchy})
+    for (const auto weight : {constant, patchy})
         for (const auto& [width, height] : sizes)
             for (const float alpha : {0.02f, 0.2f, 2.0f}) {
                 const EdgeWeights weights = weights_by(width, height, weight);
@@ -58,10 +59,10 @@ TEST(WeightedMultigrid, IsSymmetricAndPositive) {
             }
 }
 
-/// For any weights. Far weaker screening than the default needs more steps.
+/// Holds for all weights. Screening far weaker than the default needs more steps.
 TEST(WeightedMultigrid, NeedsFewSteps) {
     constexpr int width = 300, height = 200;
-    for (const auto weight : {even, patchy})
+    for (const auto weight : {constant, patchy})
         for (const float alpha : {0.02f, 0.08f, 0.5f}) {
             const GradientImages images = noisy_images(width, height);
             const PoissonProblem problem{images.primal, images.dx, images.dy, alpha};
@@ -79,7 +80,7 @@ TEST(WeightedMultigrid, NeedsFewSteps) {
 }
 
 TEST(WeightedMultigrid, KeepsNothingOfAnEarlierPreparation) {
-    const EdgeWeights first = weights_by(37, 23, patchy), second = weights_by(37, 23, even);
+    const EdgeWeights first = weights_by(37, 23, patchy), second = weights_by(37, 23, constant);
     const RgbImage r = random_image(37, 23, 3);
     RgbImage before(37, 23), after(37, 23);
     WeightedMultigrid multigrid(37, 23), other(37, 23);

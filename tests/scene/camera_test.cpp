@@ -1,4 +1,4 @@
-// Cameras of all kinds: where their rays begin and lead, and where points are seen.
+// Cameras of all kinds: origins and directions of rays, and projections of points.
 #include "render/scene/camera.h"
 
 #include <vector>
@@ -44,12 +44,12 @@ std::vector<Camera> all_kinds() {
     return {{somewhere(), 50, FovAxis::y}, lens_camera(), orthographic_camera(), telecentric, shifted};
 }
 
-/// In the camera's own units, and from where it stands.
-glm::vec3 local(const Camera& camera, glm::vec3 point) {
+/// Transforms a point from world space to camera space.
+glm::vec3 to_camera(const Camera& camera, glm::vec3 point) {
     return glm::vec3(glm::inverse(camera.to_world) * glm::vec4(point, 1));
 }
 
-TEST(Camera, LensPointsAgreeInThePlaneInFocusOnly) {
+TEST(Camera, LensPointsAgreeInTheFocalPlaneOnly) {
     for (const Camera& camera : all_kinds()) {
         if (camera.aperture_radius == 0)
             continue;
@@ -62,12 +62,12 @@ TEST(Camera, LensPointsAgreeInThePlaneInFocusOnly) {
             const glm::vec3 sharp = at_depth({0, 0}, camera.focus_distance);
             for (const glm::vec2 lens : lens_points) {
                 EXPECT_LT(glm::distance(at_depth(lens, camera.focus_distance), sharp), 1e-5f);
-                // Twice as far it is as far off as on the lens, on the other side.
+                // At twice the focus distance, the offset is that on the lens with the opposite sign.
                 const glm::vec3 off =
                     at_depth(lens, 2 * camera.focus_distance) - at_depth({0, 0}, 2 * camera.focus_distance);
                 const glm::vec3 start = camera.ray(pixel, size, lens).origin - camera.ray(pixel, size).origin;
                 EXPECT_LT(glm::length(off + start), 2e-5f);
-                const glm::vec3 on_lens = local(camera, start + glm::vec3(camera.to_world[3]));
+                const glm::vec3 on_lens = to_camera(camera, start + glm::vec3(camera.to_world[3]));
                 EXPECT_LT(glm::distance(on_lens, glm::vec3(camera.aperture_radius * lens, 0)), 1e-5f);
             }
         }
@@ -79,22 +79,22 @@ TEST(Camera, OrthographicRaysAreParallelAndTwoUnitsWide) {
     for (const glm::vec2 pixel : pixels) {
         const Ray ray = camera.ray(pixel, size);
         EXPECT_LT(glm::distance(ray.direction, glm::normalize(glm::vec3(camera.to_world[2]))), 1e-6f);
-        const glm::vec2 wanted = (1.0f - 2.0f * pixel / glm::vec2(size)) * glm::vec2(1, 0.75f);
-        EXPECT_LT(glm::distance(local(camera, ray.origin), glm::vec3(wanted, 0)), 1e-5f);
+        const glm::vec2 expected = (1.0f - 2.0f * pixel / glm::vec2(size)) * glm::vec2(1, 0.75f);
+        EXPECT_LT(glm::distance(to_camera(camera, ray.origin), glm::vec3(expected, 0)), 1e-5f);
     }
     const PixelWidth width = Projection(camera, size).pixel_width();
-    EXPECT_NEAR(width.at(1), 2 * 2.0f / 40, 1e-6f); // 2 units of 2
+    EXPECT_NEAR(width.at(1), 2 * 2.0f / 40, 1e-6f); // width of 2 units, scaled by 2
     EXPECT_EQ(width.at(1), width.at(1000));
 }
 
-TEST(Camera, PrincipalOffsetMovesThePictureByItsShares) {
+TEST(Camera, PrincipalOffsetMovesThePictureByFractionsOfItsSize) {
     Camera camera{somewhere(), 50, FovAxis::x};
     const Ray plain = camera.ray({20, 15}, size);
     camera.principal_offset = {0.25f, -0.1f};
     EXPECT_LT(glm::distance(camera.ray({10, 18}, size).direction, plain.direction), 1e-6f);
 }
 
-TEST(Camera, ProjectingUndoesRays) {
+TEST(Camera, ProjectionInvertsRays) {
     for (const Camera& camera : all_kinds()) {
         const Projection projection(camera, size);
         for (const glm::vec2 pixel : pixels)

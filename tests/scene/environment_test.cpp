@@ -1,3 +1,4 @@
+// Environment maps and suns: sampling, pdfs per solid angle, flux and orientation.
 #include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
 #include "render/surface/texture.h"
@@ -19,7 +20,7 @@ namespace tessera {
 
 namespace {
 
-/// Uneven, in part black, one pixel far brighter than all others.
+/// Returns an uneven map with black rows and one very bright pixel.
 EnvironmentDescription uneven(int width, int height) {
     Bitmap bitmap;
     bitmap.width = width;
@@ -42,7 +43,7 @@ glm::vec3 uniform_direction(glm::vec2 u) {
 class Environments
     : public testing::TestWithParam<std::pair<const char*, std::function<EnvironmentDescription()>>> {
 protected:
-    Environment environment{GetParam().second()}; // made only when its test runs
+    Environment environment{GetParam().second()}; // constructed only for tests that run
     std::mt19937 engine{7};
     glm::vec2 random() {
         std::uniform_real_distribution<float> uniform(0, 0x1.fffffep-1f);
@@ -52,7 +53,7 @@ protected:
 };
 
 TEST_P(Environments, PdfIntegratesToOneAndFluxToTheLuminance) {
-    // Stratified by a grid over the sphere.
+    // The grid over the sphere is stratified.
     constexpr int steps = 2000;
     double pdf = 0, flux = 0;
     for (int i = 0; i < steps; ++i)
@@ -61,7 +62,7 @@ TEST_P(Environments, PdfIntegratesToOneAndFluxToTheLuminance) {
             pdf += environment.pdf_w(d);
             flux += luminance(environment.radiance(d));
             if (environment.pdf_w(d) <= 0) {
-                ASSERT_TRUE(is_black(environment.radiance(d))); // or light would be lost
+                ASSERT_TRUE(is_black(environment.radiance(d))); // otherwise sampling would lose this radiance
             }
         }
     const double cell = 4 * pi / (double(steps) * steps);
@@ -70,18 +71,18 @@ TEST_P(Environments, PdfIntegratesToOneAndFluxToTheLuminance) {
 }
 
 TEST_P(Environments, SamplesFollowThePdf) {
-    // Means of smooth functions over samples and, by their pdf, over the sphere.
+    // The mean direction of the samples must equal the integral of direction times pdf.
     constexpr int samples = 400000;
     glm::dvec3 mean(0), expected(0);
-    int elsewhere = 0;
+    int mismatches = 0;
     for (int i = 0; i < samples; ++i) {
         const EnvironmentSample s = environment.sample(random(), random());
         ASSERT_NEAR(glm::length(s.direction), 1, 1e-5f);
         ASSERT_GT(s.pdf_w, 0);
-        elsewhere += std::abs(environment.pdf_w(s.direction) / s.pdf_w - 1) > 1e-5f;
+        mismatches += std::abs(environment.pdf_w(s.direction) / s.pdf_w - 1) > 1e-5f;
         mean += glm::dvec3(s.direction) / double(samples);
     }
-    EXPECT_LT(elsewhere, samples / 1000); // rounding, at the edges of cells
+    EXPECT_LT(mismatches, samples / 1000); // rounding at the edges of cells
     constexpr int steps = 2000;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {
@@ -115,7 +116,7 @@ std::vector<std::pair<const char*, std::function<EnvironmentDescription()>>> kin
             {"sun_and_map", [] { return with_sun(uneven(24, 13), 0.2f); }}};
 }
 
-TEST_P(Environments, BothAtOnceAreWhatEachIsAlone) {
+TEST_P(Environments, LookUpEqualsRadianceAndPdf) {
     for (int i = 0; i < 100000; ++i) {
         const glm::vec3 d = i % 2 ? uniform_direction(random()) : environment.sample(random(), random()).direction;
         const EnvironmentLight light = environment.look_up(d);
@@ -127,7 +128,7 @@ TEST_P(Environments, BothAtOnceAreWhatEachIsAlone) {
 INSTANTIATE_TEST_SUITE_P(kinds, Environments, testing::ValuesIn(kinds()),
                          [](const auto& p) { return p.param.first; });
 
-TEST(Angles, AreTheLibrarys) {
+TEST(Angles, AgreeWithTheStandardLibrary) {
     for (int i = 0; i <= 4096; ++i) {
         const float turns = static_cast<float>(i) / 4096;
         const double angle = 2 * 3.14159265358979323846 * turns;
@@ -143,7 +144,8 @@ TEST(Angles, AreTheLibrarys) {
 }
 
 TEST(Environment, MapIsOrientedAsMitsubas) {
-    // u = atan2(x, -z) / 2 pi: the left edge of the picture is -z, a quarter to the right is +x; v = 0 is +y.
+    // u = atan2(x, -z) / 2 pi: the left edge of the map is -z, and a quarter of its width further is +x. v = 0 is
+    // +y.
     EnvironmentDescription description;
     Bitmap bitmap;
     bitmap.width = 64;
@@ -161,7 +163,7 @@ TEST(Environment, MapIsOrientedAsMitsubas) {
     EXPECT_NEAR(environment.radiance({0, -1, 0}).g, 31, 0.01f);
 }
 
-TEST(Environment, BlackOneHasNoFlux) {
+TEST(Environment, BlackMapHasNoFlux) {
     EnvironmentDescription description = constant();
     Bitmap black = *description.map->bitmap;
     black.floats = {Rgb(0)};

@@ -1,7 +1,7 @@
-// Groups of shapes and their instances: where rays meet them, what their surface is there, and what they cost.
+// Groups of shapes and their instances: intersections, normals, masks, memory and checksums.
 
-#include "render/paths/tracer.h"
 #include "render/mesh/meshes.h"
+#include "render/paths/tracer.h"
 #include "render/sampling/sampling.h"
 #include "render/scene/scene_checksums.h"
 #include "tests/support/scene_builder.h"
@@ -18,7 +18,7 @@ namespace tessera::test {
 
 namespace {
 
-/// Turned, and not scaled alike along the axes; mirrored on demand.
+/// Returns a rotation with uneven scale, optionally mirrored.
 glm::mat4 skewed(bool mirrored) {
     const glm::mat4 moved = glm::translate(glm::mat4(1), glm::vec3(0.3f, -0.2f, 0.1f));
     const glm::mat4 turned = glm::rotate(moved, 0.7f, glm::normalize(glm::vec3(1, 2, 3)));
@@ -38,9 +38,9 @@ Material bumpy() {
     return material;
 }
 
-/// The same mesh placed by an instance, and put into the scene as it is once it is placed.
+/// Two scenes with the same mesh at the same place: as an instance, and as a transformed shape.
 struct Twins {
-    std::shared_ptr<const Scene> instanced, flat;
+    std::shared_ptr<const Scene> instanced, plain;
 
     Twins(const Mesh& mesh, const glm::mat4& to_world, bool is_flat) {
         SceneDescription description;
@@ -54,11 +54,11 @@ struct Twins {
         instanced = std::make_shared<const Scene>(std::move(description));
         (is_flat ? void(place_flat_mesh(shape.mesh, {to_world})) : void(place_mesh(shape.mesh, {to_world})));
         copied.shapes.push_back(shape);
-        flat = std::make_shared<const Scene>(std::move(copied));
+        plain = std::make_shared<const Scene>(std::move(copied));
     }
 };
 
-/// Rays from around the origin to near it.
+/// Returns ray i of random rays from a sphere around the origin toward points near it.
 Ray ray(int i) {
     const Random random(7, static_cast<std::uint32_t>(i), 0);
     const glm::vec2 a = random.draw_2d(0, Draw::direction), b = random.draw_2d(1, Draw::direction);
@@ -68,22 +68,22 @@ Ray ray(int i) {
 }
 
 void expect_twins(const Twins& twins, float tolerance) {
-    int hits = 0, side_by_side = 0;
+    int hits = 0, agreements = 0;
     for (int i = 0; i < 2000; ++i) {
         Hit one, other;
         const bool met = twins.instanced->intersector().closest(ray(i), one);
-        if (met != twins.flat->intersector().closest(ray(i), other))
-            continue; // along an edge
-        side_by_side += 1;
+        if (met != twins.plain->intersector().closest(ray(i), other))
+            continue; // at an edge, rounding decides
+        agreements += 1;
         if (!met)
             continue;
         ++hits;
         EXPECT_NE(one.placement, nullptr);
         EXPECT_EQ(other.placement, nullptr);
-        EXPECT_EQ(one.shape, 0u) << "there are no shapes before those of the group";
+        EXPECT_EQ(one.shape, 0u) << "shapes of the group come first";
         Vertex a, b;
         make_vertex(*twins.instanced, one, ray(i), a);
-        make_vertex(*twins.flat, other, ray(i), b);
+        make_vertex(*twins.plain, other, ray(i), b);
         EXPECT_LT(glm::distance(a.position, b.position), 1e-4f);
         EXPECT_LT(glm::distance(a.geometric_normal, b.geometric_normal), 1e-3f) << i;
         EXPECT_LT(glm::distance(a.frame.to_world({0, 0, 1}), b.frame.to_world({0, 0, 1})), tolerance) << i;
@@ -93,19 +93,20 @@ void expect_twins(const Twins& twins, float tolerance) {
             {ray(i).origin, ray(i).origin + 0.99f * one.distance * ray(i).direction}));
     }
     EXPECT_GT(hits, 300);
-    EXPECT_GT(side_by_side, 1990);
+    EXPECT_GT(agreements, 1990);
 }
 
-TEST(Instances, AreLikeMeshesThatAreInTheirPlace) {
+TEST(Instances, EqualTransformedMeshes) {
     for (const bool mirrored : {false, true})
         expect_twins(Twins(make_cube(), skewed(mirrored), true), 1e-3f);
 }
 
-TEST(Instances, BringTheirNormalsAlong) {
-    // Scaled alike along all axes, as normals are else interpolated before they are placed, not after.
-    const glm::mat4 even =
+TEST(Instances, TransformTheirNormals) {
+    // The scale is uniform. With an uneven scale, an instance interpolates normals before the transform and a
+    // shape after it.
+    const glm::mat4 uniform =
         glm::scale(glm::rotate(glm::mat4(1), 0.7f, glm::normalize(glm::vec3(1, 2, 3))), glm::vec3(0.8f));
-    expect_twins(Twins(make_sphere(), even, false), 2e-3f);
+    expect_twins(Twins(make_sphere(), uniform, false), 2e-3f);
     const Twins uneven(make_sphere(), skewed(true), false);
     int outside = 0, hits = 0;
     for (int i = 0; i < 500; ++i) {
@@ -121,8 +122,8 @@ TEST(Instances, BringTheirNormalsAlong) {
     EXPECT_EQ(outside, hits);
 }
 
-/// Squares one behind the other that let half of the light through, met by rays along their normals.
-TEST(Instances, EachHasAChanceOfItsOwnToLetARayThrough) {
+/// Parallel squares of opacity 0.5: each must decide independently for the same ray.
+TEST(Instances, MasksDecideIndependently) {
     constexpr int layers = 4, rays = 20000;
     SceneDescription description;
     Material veil{"veil", DiffuseMaterial{{Rgb(0.5f)}}};
@@ -169,7 +170,7 @@ TEST(Instances, TakeLittleMemory) {
     EXPECT_EQ(scene.triangle_count(), 100352u);
     const std::size_t bytes = scene.intersector().bytes();
     RecordProperty("bytes", static_cast<int>(bytes));
-    EXPECT_LT(bytes, 30'000'000u) << "10^9 triangles, each on its own, would take 70 GB";
+    EXPECT_LT(bytes, 30'000'000u) << "10^9 triangles without instances would take 70 GB";
     Hit hit;
     ASSERT_TRUE(scene.intersector().closest({{300 * 57 + 100.3f, 300 * 83 + 100.4f, 50}, {0, 0, -1}}, hit));
     EXPECT_NEAR(hit.distance, 50, 1.1f);

@@ -1,4 +1,4 @@
-// How points on lights move with the numbers that they are drawn with.
+// Derivatives of points on lights by the random numbers of emitter sampling.
 #include "render/scene/light.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
@@ -17,27 +17,28 @@ namespace {
 
 using test::SceneBuilder;
 
-/// Compares derivatives by both numbers with differences of what `draw(u)` returns; 1e-3 of their length.
+/// Compares derivatives by both numbers with finite differences of `draw(u)`, up to 1e-3 of their length.
 template <class Draw>
-void expect_derivatives(const std::array<glm::vec3, 2>& found, glm::vec2 u, Draw&& draw) {
+void expect_derivatives(const std::array<glm::vec3, 2>& derivatives, glm::vec2 u, Draw&& draw) {
     constexpr float step = 1e-3f;
     for (int axis = 0; axis < 2; ++axis) {
-        glm::vec2 by(0);
-        by[axis] = step;
+        glm::vec2 offset(0);
+        offset[axis] = step;
         const glm::vec3 truth =
-            (8.0f * (draw(u + by) - draw(u - by)) - (draw(u + 2.0f * by) - draw(u - 2.0f * by))) / (12 * step);
-        const glm::vec3 got = found[static_cast<std::size_t>(axis)];
-        EXPECT_LT(glm::distance(got, truth), 1e-3f * glm::length(truth) + 1e-5f)
+            (8.0f * (draw(u + offset) - draw(u - offset)) - (draw(u + 2.0f * offset) - draw(u - 2.0f * offset))) /
+            (12 * step);
+        const glm::vec3 derivative = derivatives[static_cast<std::size_t>(axis)];
+        EXPECT_LT(glm::distance(derivative, truth), 1e-3f * glm::length(truth) + 1e-5f)
             << u.x << ' ' << u.y << " by number " << axis;
     }
 }
 
-/// Away from 0 and 1, where there are no neighbours.
+/// Returns numbers at a distance from 0 and 1, so that finite differences stay in [0, 1].
 glm::vec2 number(std::uint32_t i) {
     return 0.01f + 0.98f * Random(3, i, 0).draw_2d(0, Draw::direction);
 }
 
-TEST(LightDerivatives, OfTrianglesAreThoseOfPointsDrawnNearby) {
+TEST(LightDerivatives, OfTrianglesEqualFiniteDifferences) {
     LightTriangle t{};
     t.corner = {1, 2, 3};
     t.edge1 = {0.5f, 0.2f, -1};
@@ -52,7 +53,7 @@ TEST(LightDerivatives, OfTrianglesAreThoseOfPointsDrawnNearby) {
     }
 }
 
-/// A map of few cells that is turned, with a sun: the number that tells one from the other is used again.
+/// Returns a rotated map of few cells with a sun. The number that selects one of both is rescaled and reused.
 EnvironmentDescription sky_with_sun() {
     SceneBuilder b;
     std::vector<Rgb> pixels;
@@ -65,7 +66,7 @@ EnvironmentDescription sky_with_sun() {
     return b.build()->description().environment;
 }
 
-TEST(LightDerivatives, OfSkyAndSunAreThoseOfDirectionsDrawnNearby) {
+TEST(LightDerivatives, OfSkyAndSunEqualFiniteDifferences) {
     const Environment sky(sky_with_sun());
     for (std::uint32_t i = 0; i < 400; ++i) {
         const glm::vec2 cell = Random(4, i, 0).draw_2d(1, Draw::direction), u = number(i);
@@ -73,14 +74,14 @@ TEST(LightDerivatives, OfSkyAndSunAreThoseOfDirectionsDrawnNearby) {
         const float apart = glm::distance(here.direction, sky.sample(cell, u + glm::vec2(0.004f, 0)).direction) +
                             glm::distance(here.direction, sky.sample(cell, u - glm::vec2(0.004f, 0)).direction);
         if (apart > 0.2f)
-            continue; // the choice between both is near
+            continue; // near the border between sun and map
         expect_derivatives(sky.differentiate(cell, u).direction, u,
                            [&](glm::vec2 at) { return sky.sample(cell, at).direction; });
     }
 }
 
-/// Both vectors span the area, or solid angle, of one of so many points as their pdf says [Suykens 2001, A.4].
-TEST(LightDerivatives, SpanWhatOnePointStandsFor) {
+/// The derivatives span an area, or solid angle, of chance / pdf [Suykens 2001, A.4].
+TEST(LightDerivatives, SpanTheInverseOfThePdf) {
     SceneBuilder b;
     b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
     b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, b.diffuse(Rgb(0)), b.light(Rgb(4, 2, 1)));

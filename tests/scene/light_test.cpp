@@ -1,3 +1,4 @@
+// Emitter sampling, the learned choice of lights, masks, and slides of projectors.
 #include "render/scene/light.h"
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
@@ -19,18 +20,18 @@ using test::SceneBuilder;
 TEST(AliasTable, ChoosesInProportionToTheWeights) {
     const std::vector<double> weights = {0.5, 0, 3, 1e-3, 2, 2.5};
     const AliasTable table(weights);
-    std::vector<double> share(weights.size());
+    std::vector<double> frequency(weights.size());
     constexpr int steps = 1200;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j)
-            share[table.choose((glm::vec2(i, j) + 0.5f) / float(steps)).index] += 1.0 / (steps * steps);
+            frequency[table.choose((glm::vec2(i, j) + 0.5f) / float(steps)).index] += 1.0 / (steps * steps);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        EXPECT_NEAR(share[i], weights[i] / 8.001, 1e-3);
+        EXPECT_NEAR(frequency[i], weights[i] / 8.001, 1e-3);
         EXPECT_NEAR(table.probability(i), weights[i] / 8.001, 1e-7); // thresholds have 24 bits
     }
 }
 
-TEST(AliasTable, SaysWhatItDoesForTinyWeights) {
+TEST(AliasTable, ReportsTheExactProbabilityOfTinyWeights) {
     const AliasTable table(std::vector<double>{1, 1e-9});
     int tiny = 0;
     for (int i = 0; i < 1 << 24; ++i)
@@ -39,13 +40,13 @@ TEST(AliasTable, SaysWhatItDoesForTinyWeights) {
     EXPECT_GE(tiny, 1);
 }
 
-TEST(AliasTable, WithoutWeightAllIsZero) {
+TEST(AliasTable, WithoutWeightProbabilitiesAreZero) {
     const AliasTable table(std::vector<double>{0, 0});
     EXPECT_EQ(table.probability(0), 0);
     EXPECT_TRUE(AliasTable(std::vector<double>{}).empty());
 }
 
-/// A scene with one light of each kind, of very different power.
+/// Returns a scene with lights of each kind and very different powers.
 std::shared_ptr<const Scene> all_kinds() {
     SceneBuilder b;
     b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
@@ -61,8 +62,8 @@ std::shared_ptr<const Scene> all_kinds() {
     return b.build();
 }
 
-/// The light that arrives at a point, by emitter sampling without occlusion, and summed by kind.
-TEST(LightTable, EverySampleIsWeighedByItsPdf) {
+/// Estimates the irradiance at a point by emitter sampling without occlusion, separately for each kind of light.
+TEST(LightTable, SamplesOverTheirPdfsGiveTheIrradiance) {
     const auto scene = all_kinds();
     const glm::vec3 receiver(0.2f, 0, 0.1f), normal(0, 1, 0);
     std::map<LightPoint::Kind, double> sums;
@@ -79,8 +80,8 @@ TEST(LightTable, EverySampleIsWeighedByItsPdf) {
         sums[light.kind] +=
             std::max(glm::dot(seen->direction, normal), 0.0f) * luminance(seen->radiance) / seen->pdf_w / samples;
     }
-    // Worked out by hand: cos / r^2 for points; the environment's upper half is 1 but for the mixing with the
-    // lower at the horizon: integral of cos (3/4 + cos-dependent) is taken from a fine sum.
+    // Expected values: I cos / r^2 for points, a product for the directional light, and a fine sum for the
+    // environment, which blends into its lower half at the horizon.
     const double point = 3 * 1 / std::pow(0.04 + 1 + 0.01, 1.5);
     const double to_spot2 = 0.09 + 1 + 0.01;
     const double angle = std::acos(1 / std::sqrt(to_spot2)) * 180 / double(pi);
@@ -94,10 +95,10 @@ TEST(LightTable, EverySampleIsWeighedByItsPdf) {
         above += 2 * double(pi) * cosine * luminance(scene->lights().environment()->radiance(d)) / 20000;
     }
     EXPECT_NEAR(sums[LightPoint::Kind::environment], above, 0.02 * above);
-    EXPECT_GT(sums[LightPoint::Kind::surface], 1); // the z-tests judge this one
+    EXPECT_GT(sums[LightPoint::Kind::surface], 1); // judge_test.cpp tests the value
 }
 
-TEST(LightTable, PowerDecidesWithoutFactorsAndUnlitTrianglesAreLeftOut) {
+TEST(LightTable, ChoosesByPowerAndLeavesOutBlackTriangles) {
     SceneBuilder b;
     const int black = b.diffuse(Rgb(0));
     b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, black, b.light(Rgb(9)));
@@ -114,19 +115,19 @@ TEST(LightTable, PowerDecidesWithoutFactorsAndUnlitTrianglesAreLeftOut) {
     EXPECT_FLOAT_EQ(LightTable(scene->description(), scene->radius(), {1, 9, 1, 1}).pdf_a(1), 0.5f);
 }
 
-/// How often each light is chosen, in the order of LightTable::powers().
-std::vector<double> shares_of(const Scene& scene) {
+/// Returns the probability of each light, in the order of LightTable::powers().
+std::vector<double> probabilities_of(const Scene& scene) {
     const std::vector<double>& power = scene.lights().powers();
     const std::vector<double> factors = learn_light_selection(scene);
-    std::vector<double> shares(power.size());
-    std::transform(power.begin(), power.end(), factors.begin(), shares.begin(), std::multiplies<>());
-    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    for (double& share : shares)
-        share /= sum;
-    return shares;
+    std::vector<double> probabilities(power.size());
+    std::transform(power.begin(), power.end(), factors.begin(), probabilities.begin(), std::multiplies<>());
+    const double sum = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+    for (double& p : probabilities)
+        p /= sum;
+    return probabilities;
 }
 
-/// A floor, 60 units wide, that two spots and the sky light.
+/// Returns a floor, 60 units wide, under two spot lights and a sky.
 std::shared_ptr<const Scene> spots_under_the_sky() {
     SceneBuilder b;
     b.quad({-30, 0, -30}, {0, 0, 60}, {60, 0, 0}, b.diffuse(Rgb(0.7f)));
@@ -137,30 +138,29 @@ std::shared_ptr<const Scene> spots_under_the_sky() {
     return b.build();
 }
 
-TEST(LightChoice, TheSkyDoesNotTakeAllSamplesFromTheSpots) {
+TEST(LightChoice, SamplesSpotsUnderAStrongSky) {
     const auto scene = spots_under_the_sky();
     const std::vector<double> power = scene->lights().powers();
     ASSERT_EQ(power.size(), 3u);
-    EXPECT_GT(power[2], 50 * (power[0] + power[1])) << "by power they would go under";
-    const std::vector<double> shares = shares_of(*scene);
-    EXPECT_GT(shares[0], 0.3);
-    EXPECT_GT(shares[1], 0.3);
-    EXPECT_GT(shares[2], 0.1) << "it may light what no path has seen";
+    EXPECT_GT(power[2], 50 * (power[0] + power[1])) << "by power, the spots get hardly any samples";
+    const std::vector<double> probabilities = probabilities_of(*scene);
+    EXPECT_GT(probabilities[0], 0.3);
+    EXPECT_GT(probabilities[1], 0.3);
+    EXPECT_GT(probabilities[2], 0.1) << "it may light places that the learning paths missed";
     EXPECT_EQ(learn_light_selection(*scene), learn_light_selection(*spots_under_the_sky()));
 }
 
-TEST(LightChoice, ALampThatNobodySeesGetsFewSamples) {
+TEST(LightChoice, HiddenLampGetsFewSamples) {
     SceneBuilder b;
     b.room({0, 0, 0, 0, b.diffuse(Rgb(0.5f))});
     b.quad({-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, 0, b.light(Rgb(1)));
     b.point({{0, 50, 0}, Rgb(1000)}); // above the ceiling
     b.camera({0, 0, 3}, {0, 0, 0}, 40);
-    const std::vector<double> shares = shares_of(*b.build());
-    EXPECT_GT(shares[0], 0.8);
-    EXPECT_GT(shares[1], 0.1);
+    const std::vector<double> probabilities = probabilities_of(*b.build());
+    EXPECT_GT(probabilities[0], 0.8);
+    EXPECT_GT(probabilities[1], 0.1);
 }
 
-/// The mean of the table's estimates of the light at a point is the same for any factors.
 TEST(LightChoice, FactorsDoNotChangeTheMean) {
     const auto scene = all_kinds();
     const auto estimate = [&](const std::vector<double>& factors) {
@@ -177,12 +177,12 @@ TEST(LightChoice, FactorsDoNotChangeTheMean) {
         }
         return sum / count;
     };
-    const double by_power = estimate({}), learnt = estimate(learn_light_selection(*scene));
-    EXPECT_NEAR(learnt / by_power, 1, 0.02);
+    const double by_power = estimate({}), learned = estimate(learn_light_selection(*scene));
+    EXPECT_NEAR(learned / by_power, 1, 0.02);
     EXPECT_NEAR(estimate({3, 40, 0.2, 1, 5, 0.5}) / by_power, 1, 0.02);
 }
 
-TEST(LightTable, RaysThatMissAllLightsAreKnown) {
+TEST(LightTable, MayBeHitIsFalseForRaysThatMissAllLights) {
     SceneBuilder b;
     b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.diffuse(Rgb(0)), b.light(Rgb(9)));
     const auto scene = b.build();
@@ -194,8 +194,8 @@ TEST(LightTable, RaysThatMissAllLightsAreKnown) {
     EXPECT_FALSE(dark.build()->lights().may_be_hit({{0.5f, 0.5f, 2}, {0, 0, -1}}));
 }
 
-/// A mask stops its opacity's share of many rays; single rays and packets agree on the share.
-TEST(Intersector, MaskStopsItsShareOfRays) {
+/// The fraction of blocked rays is the opacity, for single rays and for packets.
+TEST(Intersector, MaskBlocksRaysByItsOpacity) {
     SceneBuilder b;
     Material half{"half", DiffuseMaterial{}, true};
     half.opacity = Texture(Rgb(0.3f));
@@ -204,7 +204,7 @@ TEST(Intersector, MaskStopsItsShareOfRays) {
     int hits = 0, blocked = 0, blocked_in_packets = 0;
     constexpr int side = 200;
     SegmentLanes segments;
-    LaneMask asked, result;
+    LaneMask active, result;
     for (int i = 0; i < side; ++i) {
         for (int j = 0; j < side; ++j) {
             const glm::vec3 from((glm::vec2(i, j) + 0.3f) / float(side), 1);
@@ -214,9 +214,9 @@ TEST(Intersector, MaskStopsItsShareOfRays) {
             blocked += scene->intersector().occluded({from, to});
             segments.from.set(j, from);
             segments.to.set(j, to);
-            asked[j] = -1;
+            active[j] = -1;
         }
-        scene->intersector().occluded(segments, asked, side, result);
+        scene->intersector().occluded(segments, active, side, result);
         for (int j = 0; j < side; ++j)
             blocked_in_packets += result[j] != 0;
     }
@@ -225,7 +225,7 @@ TEST(Intersector, MaskStopsItsShareOfRays) {
         EXPECT_NEAR(n / count, 0.3, 4 * std::sqrt(0.21 / count));
 }
 
-/// A picture of two by one pixels, wider than high.
+/// Returns a picture of 2x1 pixels.
 Texture two_pixels() {
     Bitmap bitmap;
     bitmap.width = 2;
@@ -236,16 +236,16 @@ Texture two_pixels() {
     return texture;
 }
 
-TEST(Slide, LiesAsACamerasPictureWouldAndHasItsPower) {
+TEST(Slide, IsOrientedAsACameraPictureAndHasItsPower) {
     PointLight light;
     light.slide = Slide{two_pixels(), {glm::mat4(1), 90, FovAxis::x}, Slide::Kind::irradiance};
     const auto toward = [&](float x, float y) { return light.toward(glm::normalize(glm::vec3(x, y, 1))); };
     EXPECT_GT(toward(0.9f, 0.4f).r, 0); // +x is to the left
     EXPECT_GT(toward(-0.9f, -0.4f).g, 0);
     EXPECT_EQ(toward(-0.9f, -0.4f).r, 0);
-    EXPECT_EQ(toward(0.9f, 0.6f), Rgb(0)); // half as high as wide
+    EXPECT_EQ(toward(0.9f, 0.6f), Rgb(0)); // outside: the picture is half as high as wide
     EXPECT_EQ(toward(1.1f, 0), Rgb(0));
-    double power = 0; // over the plane at distance 1, 2 wide and 1 high
+    double power = 0; // integral over the picture at distance 1, 2 units wide and 1 high
     constexpr int steps = 200;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {

@@ -1,3 +1,4 @@
+// The sky model of [Preetham 1999].
 #include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
 #include "render/scene/sky.h"
@@ -24,7 +25,7 @@ float zenith_candela(const Sky& sky) {
     return luminance(sky_radiance(sky, {0, 1, 0})) * candela_per_radiance;
 }
 
-/// What falls on the ground.
+/// Returns the irradiance on horizontal ground.
 Rgb irradiance(const Sky& sky) {
     const int n = 64;
     Rgb sum(0);
@@ -44,7 +45,7 @@ TEST(Sky, MapAndDirectionAreInverse) {
     EXPECT_LT(glm::length(direction_of_map({0.25f, 0.5f}) - glm::vec3(1, 0, 0)), 1e-6f);
 }
 
-// Yz of [Preetham 1999, A.2], worked out by hand, in kcd/m^2.
+/// Values of Yz [Preetham 1999, A.2], in cd/m^2.
 TEST(Sky, ZenithHasTheLuminanceOfThePaper) {
     EXPECT_NEAR(zenith_candela(sky_of(3, 90)), 29477, 29477 * 2e-3);
     EXPECT_NEAR(zenith_candela(sky_of(3, 45)), 7320, 7320 * 2e-3);
@@ -52,8 +53,8 @@ TEST(Sky, ZenithHasTheLuminanceOfThePaper) {
     EXPECT_NEAR(zenith_candela(sky_of(6, 0)), 1126, 1126 * 2e-3);
 }
 
-// Irradiance on the ground (luminance of it, albedo 0.2) of the model of [Hosek 2012] by Mitsuba 3.9's `sunsky`.
-TEST(Sky, BrightnessIsThatOfHosekAndWilkieWithinAThird) {
+/// Expected irradiances (luminance, ground albedo 0.2) come from Mitsuba 3.9's `sunsky` [Hosek 2012].
+TEST(Sky, BrightnessIsWithinAThirdOfHosekAndWilkie) {
     const struct {
         float turbidity, elevation, irradiance;
     } cases[] = {{2, 24.63f, 0.1671f}, {2, 45, 0.1986f},     {2, 70, 0.2167f}, {3, 24.63f, 0.1897f},
@@ -66,14 +67,14 @@ TEST(Sky, BrightnessIsThatOfHosekAndWilkieWithinAThird) {
     }
 }
 
-TEST(Sky, BlueAboveAndPalerAtTheHorizon) {
+TEST(Sky, IsBlueAboveAndPalerAtTheHorizon) {
     const Sky sky = sky_of(3, 45);
     const Rgb above = sky_radiance(sky, {0, 1, 0}), low = sky_radiance(sky, at(2, 90));
     EXPECT_GT(above.b / above.r, 1.5f);
     EXPECT_LT(low.b / low.r, above.b / above.r);
 }
 
-TEST(Sky, SymmetricAboutTheSunsAzimuth) {
+TEST(Sky, IsSymmetricAboutTheSunsAzimuth) {
     const Sky sky = sky_of(4, 30, 130);
     for (float elevation = 5; elevation < 90; elevation += 17)
         for (float away = 10; away < 180; away += 31) {
@@ -89,7 +90,7 @@ TEST(Sky, TurnsWithTheSun) {
         1e-6f);
 }
 
-TEST(Sky, PositiveAboveTheHorizonAndBlackBelow) {
+TEST(Sky, IsPositiveAboveTheHorizonAndBlackBelow) {
     for (const float turbidity : {1.0f, 2.0f, 3.0f, 6.0f, 10.0f})
         for (const float sun : {0.0f, 1.0f, 20.0f, 60.0f, 90.0f}) {
             const Sky sky = sky_of(turbidity, sun, 40);
@@ -105,8 +106,8 @@ TEST(Sky, PositiveAboveTheHorizonAndBlackBelow) {
         }
 }
 
-// The sky is continuous also across the sun, where the angle to it is small, and as the sun sets.
-TEST(Sky, Continuous) {
+/// Also across the sun, and as the sun sets.
+TEST(Sky, IsContinuous) {
     const Sky sky = sky_of(3, 30, 90);
     for (float elevation = 1; elevation < 89; elevation += 0.5f) {
         const Rgb a = sky_radiance(sky, at(elevation, 90)), b = sky_radiance(sky, at(elevation + 0.01f, 90));
@@ -147,8 +148,8 @@ TEST(Sky, BitmapHoldsTheRadianceAtItsPixels) {
     ASSERT_EQ(map.width, 32);
     ASSERT_EQ(map.height, 16);
     ASSERT_EQ(map.floats.size(), 32u * 16u);
-    const Rgb there = sky_radiance(sky, direction_of_map({5.5f / 32, 3.0f / 15}));
-    EXPECT_LT(glm::length(map.texel(5, 3) - there), 1e-5f * glm::length(there));
+    const Rgb expected = sky_radiance(sky, direction_of_map({5.5f / 32, 3.0f / 15}));
+    EXPECT_LT(glm::length(map.texel(5, 3) - expected), 1e-5f * glm::length(expected));
     EXPECT_TRUE(is_black(map.texel(5, 8)));
     settings.scale = Rgb(1);
     const Rgb unscaled = sky_radiance(make_sky(settings), direction_of_map({5.5f / 32, 3.0f / 15}));

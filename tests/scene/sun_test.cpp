@@ -1,3 +1,4 @@
+// Radiance and position of the sun.
 #include "render/sampling/sampling.h"
 #include "render/scene/environment.h"
 #include "render/scene/sky.h"
@@ -34,15 +35,15 @@ TEST(Sun, DimsAndReddensTowardTheHorizon) {
     EXPECT_LT(luminance(sun_radiance(6, 0.5f)), luminance(sun_radiance(2, 0.5f)));
 }
 
-// Direct sunlight under a clear sky with a high sun is around 100 klx.
-TEST(Sun, LightsTheGroundAsTheSunDoes) {
+/// Direct light of a high sun in a clear sky is about 100 klx.
+TEST(Sun, IlluminanceIsAbout100Kilolux) {
     const float lux = luminance(sun_irradiance(sun_radiance(3, 60 * degree))) * candela_per_radiance;
     EXPECT_GT(lux, 7e4f);
     EXPECT_LT(lux, 1.2e5f);
 }
 
-// [Hosek 2013], by Mitsuba 3.9's `sunsky`: the mean over the disk for turbidity 3.
-TEST(Sun, IsNearHosekAndWilkies) {
+/// Expected means over the disk, for turbidity 3, come from Mitsuba 3.9's `sunsky` [Hosek 2013].
+TEST(Sun, RadianceIsNearHosekAndWilkie) {
     const struct {
         float elevation;
         Rgb radiance;
@@ -54,7 +55,7 @@ TEST(Sun, IsNearHosekAndWilkies) {
     }
 }
 
-TEST(Sun, ResizedKeepsItsIrradiance) {
+TEST(Sun, ResizingKeepsTheIrradiance) {
     const Rgb radiance(3, 2, 1);
     for (const float radius : {0.001f, 0.01f, 0.1f, 0.5f}) {
         const Rgb resized = resized_sun_radiance(radiance, radius) * disk_solid_angle(radius);
@@ -63,8 +64,8 @@ TEST(Sun, ResizedKeepsItsIrradiance) {
     EXPECT_NEAR(disk_solid_angle(pi), 4 * pi, 1e-5f);
 }
 
-// The example of [Reda 2004, A.5]: Golden, Colorado, 17 October 2003. Elevation before refraction.
-TEST(Sun, StandsWhereTheNationalRenewableEnergyLaboratorySays) {
+/// The example of [Reda 2004, A.5]: Golden, Colorado, 17 October 2003. The elevation excludes refraction.
+TEST(Sun, PositionAgreesWithRedaAndAndreas) {
     PlaceAndTime when;
     when.latitude = 39.742476;
     when.longitude = -105.1786;

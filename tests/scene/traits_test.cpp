@@ -1,3 +1,4 @@
+// Traits of scenes, such as delta lobes, masks and textures.
 #include "render/scene/scene.h"
 #include "tests/support/scene_builder.h"
 
@@ -9,18 +10,18 @@ namespace tessera::test {
 
 namespace {
 
-Texture alpha_map(float least, float most) {
+Texture alpha_map(float min, float max) {
     auto bitmap = std::make_shared<Bitmap>();
     bitmap->width = 2;
     bitmap->height = 1;
     bitmap->srgb = false;
-    bitmap->floats = {Rgb(most), Rgb(least)};
+    bitmap->floats = {Rgb(max), Rgb(min)};
     Texture texture;
     texture.kind = BitmapTexture{bitmap, Filter::bilinear, Wrap::repeat};
     return texture;
 }
 
-/// The traits of a square made of `material`.
+/// Returns the traits of a square with this material.
 SceneTraits traits_of_material(const Material& material) {
     SceneBuilder b;
     b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.material(material));
@@ -33,7 +34,7 @@ Material conductor(Texture alpha) {
     return {"", kind};
 }
 
-TEST(SceneTraits, DiffuseBoxHasNothingButItsLamp) {
+TEST(SceneTraits, DiffuseBoxHasItsLampOnly) {
     SceneBuilder b;
     const int white = b.diffuse(Rgb(0.7f));
     b.room({white, white, white, white, white});
@@ -89,13 +90,13 @@ TEST(SceneTraits, LobesOfPrincipledAndTranslucentMaterials) {
     expect({"", WardMaterial{}}, 0, 0, 0);
     expect({"", DiffuseTransmitterMaterial{}}, 0, 0, 1);
     expect({"", MediumLayerMaterial{}}, 1, 0, 1);
-    // Roughness along one direction is enough to be no mirror.
+    // Roughness along one axis is enough: no delta lobe.
     ConductorMaterial brushed;
     brushed.alpha_v = Texture(Rgb(0.5f));
     expect({"", brushed}, 0, 1, 0);
 }
 
-TEST(SceneTraits, TexturedRoughnessCountsByItsLeast) {
+TEST(SceneTraits, TexturedRoughnessCountsByItsMinimum) {
     const auto expect = [](Texture alpha, int delta, int glossy) {
         const SceneTraits traits = traits_of_material(conductor(std::move(alpha)));
         EXPECT_EQ(traits.delta_lobes, delta);

@@ -6,11 +6,12 @@
 
 namespace tessera::test {
 
-/// Waits until it holds, for up to two minutes: other tests run beside, on machines that others use as well.
-inline bool eventually(const std::function<bool()>& holds) {
+/// Waits until `condition` holds, and returns whether it did within two minutes. The limit is long because other
+/// programs may use the machine.
+inline bool eventually(const std::function<bool()>& condition) {
     using namespace std::chrono;
     for (const auto end = steady_clock::now() + minutes(2); steady_clock::now() < end;) {
-        if (holds())
+        if (condition())
             return true;
         std::this_thread::sleep_for(milliseconds(5));
     }

@@ -1,4 +1,4 @@
-// Scenes for lights of all kinds, masks and relief.
+// Test scenes for lights of all kinds, masks, instances and relief.
 #include "tests/support/rooms.h"
 
 #include <memory>
@@ -31,7 +31,7 @@ std::shared_ptr<const Scene> sun() {
     return r.build();
 }
 
-/// An environment seen in mirror, glass and gloss, and a lamp beside it.
+/// Mirror, glass, glossy and diffuse squares under an environment and a lamp.
 std::shared_ptr<const Scene> environment_patchwork() {
     OpenRoom r;
     r.sky();
@@ -50,7 +50,7 @@ std::shared_ptr<const Scene> environment_gloss() {
     return r.build();
 }
 
-/// Lights without extent, one in a cone that falls off, one beside a glossy floor.
+/// Point lights, one of them with a cone, and a directional light, above a glossy floor.
 std::shared_ptr<const Scene> point_lights() {
     OpenRoom r;
     r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
@@ -62,7 +62,7 @@ std::shared_ptr<const Scene> point_lights() {
     return r.build();
 }
 
-/// A projector and a spot with a pattern, side by side, on walls and a glossy floor.
+/// A projector and a spot light with a pattern, above a glossy floor.
 std::shared_ptr<const Scene> slides() {
     OpenRoom r;
     r.quad({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}, r.conductor(0.2f));
@@ -82,7 +82,7 @@ std::shared_ptr<const Scene> slides() {
     return r.build();
 }
 
-/// A light whose radiance is a pattern, in part black, beside a plain one of another kind.
+/// A lamp with a partly black pattern, beside a plain lamp.
 std::shared_ptr<const Scene> textured_light() {
     Room r;
     Texture pattern;
@@ -92,7 +92,7 @@ std::shared_ptr<const Scene> textured_light() {
     return r.build();
 }
 
-/// Panes that half of the light passes, one of them with holes, in front of the room and of the light.
+/// Masks in front of the room and of the lamp: one of constant opacity, one with a pattern.
 std::shared_ptr<const Scene> masks() {
     Room r;
     Material half{"half", DiffuseMaterial{{white}}, true};
@@ -108,7 +108,7 @@ std::shared_ptr<const Scene> masks() {
     return r.build();
 }
 
-/// Masked panes in front of a glossy floor, a sky and a sun.
+/// Masks in front of a glossy floor, a sky and a sun.
 std::shared_ptr<const Scene> masks_outside() {
     OpenRoom r;
     r.sky();
@@ -122,7 +122,7 @@ std::shared_ptr<const Scene> masks_outside() {
     return r.build();
 }
 
-/// Waves on a glossy floor and a wall, by their normals alone.
+/// Bump maps on a glossy floor and a wall.
 std::shared_ptr<const Scene> relief() {
     Room r;
     Bitmap waves;
@@ -143,7 +143,7 @@ std::shared_ptr<const Scene> relief() {
     return r.build();
 }
 
-/// A group of a glossy sphere and a leaf, turned, scaled unevenly and mirrored.
+/// Two instances of a group of a glossy sphere and a leaf, with rotation, uneven scale and mirroring.
 std::shared_ptr<const Scene> instances() {
     Room r;
     r.sphere({0, 0, 0}, 0.4f, r.plastic(red, 0.25f), 12);

@@ -7,14 +7,14 @@
 
 namespace tessera::test {
 
-// Sanitizers take all address space for themselves.
+// Sanitizers reserve the whole address space.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool can_limit_memory = false;
 #else
 inline constexpr bool can_limit_memory = true;
 #endif
 
-/// While it lives, this process can take about so many bytes more than it has.
+/// Limits the process, during the object's lifetime, to about so many bytes more than it uses.
 class MemoryLimit {
 public:
     explicit MemoryLimit(rlim_t bytes) {

@@ -25,7 +25,7 @@ public:
         return {u, uniform()};
     }
 
-    /// By rejection, not as the estimators do.
+    /// Samples by rejection, unlike the estimators.
     glm::vec2 point_in_disk() {
         for (;;) {
             const glm::vec2 p = 2.0f * uniform_2d() - 1.0f;
@@ -34,8 +34,8 @@ public:
         }
     }
 
-    /// Very direct light first, straight and in mirrors, then all other, then that over the albedo of what is seen
-    /// first.
+    /// Returns the radiance of one path: directly visible emission, all other radiance, and the latter over
+    /// `albedo`.
     std::array<Rgb, 3> radiance(Ray ray, int max_depth) {
         std::array<Rgb, 3> sums{Rgb(0), Rgb(0), Rgb(0)};
         Rgb throughput(1);
@@ -54,7 +54,7 @@ public:
             make_vertex(scene_, hit, ray, v);
             if (edges == 1)
                 albedo = v.bsdf.albedo(v.to_previous);
-            else if (is_very_direct && !scene_.has_masks()) // seen in mirrors alone
+            else if (is_very_direct && !scene_.has_masks()) // seen in mirrors only
                 albedo = glm::max(throughput * v.bsdf.albedo(v.to_previous), Rgb(1e-4f));
             sums[is_very_direct ? 0 : 1] += throughput * v.light_toward(-ray.direction).radiance;
             is_very_direct = is_very_direct && v.bsdf.is_mirror();
@@ -75,19 +75,18 @@ public:
         }
         sums[2] = sums[1] / albedo;
         if (goes_on) {
-            onward.carried += sums[1]; // all that has been found since
+            onward.carried += sums[1]; // minus the sum at x_1: radiance found after it
             by_direction.push_back(onward);
         }
         return sums;
     }
 
-    // Of the last radiance(): the albedo of what is seen first, straight or in mirrors, and all light by how it
-    // has left x_1.
-    Rgb albedo;
+    // Results of the last radiance().
+    Rgb albedo; ///< of the first surface that is no mirror, times the throughput of mirrors before it
     std::vector<ByDirection> by_direction;
 
 private:
-    /// Inverse square law and Lambert's, for every point and every directional light.
+    /// Returns the reflected radiance of all point lights and directional lights.
     Rgb from_lights_without_extent(const Vertex& v, bool is_first) {
         Rgb sum(0);
         const auto add = [&](glm::vec3 direction, Rgb arriving) {

@@ -19,30 +19,29 @@ struct Measured {
     RgbImage standard_error;
 };
 
-/// What the judge measured.
+/// Images of render_naive().
 struct NaiveMeasured {
-    Measured light; ///< all but very direct light
-    Measured very_direct;
-    Measured coefficient; ///< light over the albedo of what is seen first, straight or in mirrors
+    Measured light;       ///< radiance without directly visible emission
+    Measured very_direct; ///< directly visible emission, also in mirrors
+    Measured coefficient; ///< `light` over the albedo of the first surface that is no mirror
 };
 
-/// The judge: a path tracer without emitter sampling and without weights, with random numbers of its own; light is
-/// counted only where a path runs into it, but for lights that no ray can meet: of these all are summed at every
-/// vertex. Nothing of the estimators under test is in it but vertices and BSDFs. Very direct
-/// is what the camera sees itself.
+/// Renders with a naive path tracer: independent random numbers, no MIS weights, and emission only where a path
+/// hits it. Lights without extent are summed at every vertex. It shares only vertices, BSDFs and lights with the
+/// estimators under test.
 NaiveMeasured render_naive(const Scene& scene, glm::ivec2 size, int max_depth, int samples, std::uint32_t seed);
 
-/// Light by how it left what the camera sees first.
+/// Radiance by the direction in which it arrives at x_1.
 struct ByDirection {
     glm::vec3 direction{0, 0, 1}; ///< unit, world
-    Rgb f_cos{0};                 ///< infinite: a delta scatter
-    Rgb carried{0};               ///< toward the camera
+    Rgb f_cos{0};                 ///< at x_1; infinite after a delta scatter
+    Rgb carried{0};               ///< radiance toward the camera
 };
-/// What the light of one sample of a pixel is in parts.
+/// Computes the basis components of one sample of a pixel.
 using ComponentsOf = std::function<void(glm::ivec2 pixel, Rgb albedo, std::span<const ByDirection> light,
                                         std::span<Rgb> components)>;
 
-/// The means of such parts, by the same judge, of a camera without a lens.
+/// Renders the means of such components with the same path tracer. The camera has no lens.
 std::vector<Measured> render_naive_components(const Scene& scene, glm::ivec2 size, int max_depth, int samples,
                                               std::uint32_t seed, int components,
                                               const ComponentsOf& components_of);

@@ -4,8 +4,9 @@
 
 namespace tessera::test {
 
-/// Shifts all light paths of a base path to what another one sees, lane 0 of `paths`. New edges are taken
-/// for free, or traced with `trace_edges`. Returns whether one was blocked.
+/// Shifts all light paths of a base path to the x_1 of another one, lane 0 of `paths`. Returns whether a new edge
+/// is blocked.
+/// @param trace_edges  false: all new edges count as free
 inline bool shift_to_one(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base,
                          const LightPaths& light, const BasePath& other, OffsetPaths& paths,
                          bool trace_edges = false) {
@@ -16,12 +17,12 @@ inline bool shift_to_one(const Tracer& tracer, const ShiftSettings& settings, co
     PendingEdges edges;
     edges.reset(1);
     OutcomeLanes outcomes;
-    LaneMask lost;
+    LaneMask blocked;
     paths.reset(light.slot_count(), 1);
     shift.run(base, light, primary, -1, paths, edges, outcomes);
     if (trace_edges)
-        edges.resolve(tracer, paths, lost);
-    return lost[0] != 0;
+        edges.resolve(tracer, paths, blocked);
+    return blocked[0] != 0;
 }
 
 } // namespace tessera::test

@@ -10,7 +10,7 @@ inline const Rgb white(0.75f);
 inline const Rgb red(0.63f, 0.065f, 0.05f);
 inline const Rgb green(0.14f, 0.45f, 0.091f);
 
-/// A diffuse room, lit by half of its ceiling, so that a naive path tracer finds the light often.
+/// A diffuse room with a lamp on half of its ceiling, which naive path tracing often hits.
 struct Room : SceneBuilder {
     int w = diffuse(white), r = diffuse(red), g = diffuse(green), black = diffuse(Rgb(0));
     int lamp = light(Rgb(5, 4, 3));
@@ -23,7 +23,7 @@ struct Room : SceneBuilder {
     void ceiling_light(int material) { quad({-0.7f, 0.98f, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, material, lamp); }
 };
 
-/// A room without a ceiling: an environment above, uneven, turned, and with a sun.
+/// A room without a ceiling, for environments.
 struct OpenRoom : SceneBuilder {
     int w = diffuse(white), r = diffuse(red);
 
@@ -34,6 +34,7 @@ struct OpenRoom : SceneBuilder {
         sphere({0.35f, -0.6f, 0}, 0.35f, w);
         camera({0, 0.2f, 2.6f}, {0, -0.4f, 0}, 50);
     }
+    /// Adds an uneven, rotated environment.
     void sky() {
         std::vector<Rgb> pixels;
         for (int y = 0; y < 6; ++y)

@@ -76,9 +76,9 @@ std::shared_ptr<const Material> SceneBuilder::copy_of(int material) const {
     return std::make_shared<const Material>(description_.materials.at(static_cast<std::size_t>(material)));
 }
 
-int SceneBuilder::blend(int first, int second, float share_of_second) {
+int SceneBuilder::blend(int first, int second, float blend_weight) {
     MixtureMaterial m{{copy_of(first), copy_of(second)}};
-    m.blend_weight = Texture(Rgb(share_of_second));
+    m.blend_weight = Texture(Rgb(blend_weight));
     const bool two_sided = m.parts[0]->two_sided && m.parts[1]->two_sided;
     return material({"blend", m, two_sided});
 }

@@ -11,14 +11,14 @@ namespace tessera::test {
 
 namespace {
 
-/// What a slot of LightPaths stands for.
-struct SlotMeaning {
-    bool is_tail; ///< all that ends beyond the join
-    bool is_hit;  ///< BSDF sampling at `vertex` meets a light
-    int vertex;   ///< the last one with a choice: of the tail the join
+/// End of the light path of a slot. If neither is_tail nor is_hit holds, it ends by emitter sampling at `vertex`.
+struct SlotEnd {
+    bool is_tail; ///< light paths that end beyond the reconnection vertex
+    bool is_hit;  ///< BSDF sampling at `vertex` hits a light
+    int vertex;   ///< last vertex at which a direction or light is sampled; for the tail the reconnection vertex
 };
 
-SlotMeaning meaning_of(const LightPaths& light, int slot) {
+SlotEnd end_of(const LightPaths& light, int slot) {
     if (light.has_join() && slot == light.tail_slot())
         return {true, false, light.join()};
     const int vertex = light.vertex_of(slot);
@@ -30,7 +30,7 @@ public:
     Builder(const Tracer& tracer, const ShiftSettings& settings, const BasePath& base, int slot)
         : tracer_(tracer), settings_(settings), base_(base) {
         light_.reset(base, settings);
-        end_ = meaning_of(light_, slot);
+        end_ = end_of(light_, slot);
     }
 
     std::optional<BasePath> build(const BasePath& other) {
@@ -53,10 +53,10 @@ public:
 private:
     bool ends_by_hit(int i) const { return end_.is_hit && i == end_.vertex; }
 
-    /// Whether the edge from vertex i is to lead to the base's next vertex.
+    /// Returns whether the edge from vertex i leads to the base's next vertex.
     bool connects(int i) const {
         if (light_.has_join() && i >= light_.join())
-            return true; // the base's own, however glossy
+            return true; // the base's own vertices
         if (!light_.step_is_connectable(i))
             return false;
         const bool joins = light_.has_join() && i + 1 >= light_.join();
@@ -138,7 +138,7 @@ private:
 
     bool arrive(int i, const Vertex& next, glm::vec3 direction) {
         keep(next);
-        BaseVertex& y = path_[i]; // only now: keep() ends references
+        BaseVertex& y = path_[i]; // after keep(), which invalidates references
         const glm::vec3 d = next.position - y.vertex.position;
         y.next_geometry = std::abs(glm::dot(next.geometric_normal, direction)) / glm::dot(d, d);
         if (ends_by_hit(i)) {
@@ -153,14 +153,15 @@ private:
         y.hit_contribution = radiance * (y.pdf_w / (y.pdf_w + y.hit_pdf_w));
     }
 
-    /// The light path ends at a point of a light that the last vertex has chosen.
+    /// Ends the light path by emitter sampling at the last vertex. Returns whether that is possible.
     bool end_by_emitter_sampling() {
         const Vertex& y = path_[end_.vertex].vertex;
         const LightSample& x = base_.light(end_.vertex);
         LightSample& drawn = path_.light(end_.vertex);
         const Vertex& last = base_[end_.vertex].vertex;
         const JoinRule rule(settings_, base_.pixel_angle);
-        const bool is_joined = end_.vertex > 0 && light_.step_joins(end_.vertex - 1); // then it is the base's own
+        // After a step that joins, the last vertex is the base's own.
+        const bool is_joined = end_.vertex > 0 && light_.step_joins(end_.vertex - 1);
         const bool connectable =
             is_joined || rule.covers(last.bsdf.roughness(),
                                      rule.turn(light_.apart(end_.vertex), x.light.distance_from(last.position)));
@@ -191,7 +192,7 @@ private:
         return true;
     }
 
-    /// Behind the vertex after the join nothing is new.
+    /// Appends the base's vertices beyond the reconnection vertex.
     void append_suffix() {
         const int join = end_.vertex;
         path_[join].arriving = base_[join].arriving;
@@ -206,7 +207,7 @@ private:
     const ShiftSettings& settings_;
     const BasePath& base_;
     LightPaths light_;
-    SlotMeaning end_;
+    SlotEnd end_;
     BasePath path_;
 };
 
@@ -215,12 +216,12 @@ private:
 BasePath isolated(const BasePath& path, const ShiftSettings& settings, int slot) {
     LightPaths light;
     light.reset(path, settings);
-    const SlotMeaning end = meaning_of(light, slot);
+    const SlotEnd end = end_of(light, slot);
     BasePath one = path;
     one.direct = one.indirect = one.very_direct = Rgb(0);
     for (int i = 0; i < one.size(); ++i) {
         if (end.is_tail && i > end.vertex)
-            break; // that is the tail
+            break; // part of the tail
         if (end.is_tail || end.is_hit || i != end.vertex)
             one.light(i).brings = Rgb(0);
         if (!end.is_hit || i != end.vertex)

@@ -1,3 +1,4 @@
+// Small scenes for tests of estimators.
 #include "tests/support/rooms.h"
 
 #include <memory>
@@ -51,7 +52,7 @@ std::shared_ptr<const Scene> glass_ball() {
     return r.build();
 }
 
-/// A window pane across half of the view, and a mirror of glass on the wall.
+/// A pane of glass across half of the view, and a highly reflective pane on the wall.
 std::shared_ptr<const Scene> thin_panes() {
     Room r;
     r.quad({-0.9f, -0.9f, 0.4f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, r.glass(1.5f, true));
@@ -59,7 +60,7 @@ std::shared_ptr<const Scene> thin_panes() {
     return r.build();
 }
 
-/// Slats between the tile's points and the rest of the room.
+/// Slats between the visible points of neighbouring pixels and the rest of the room, which block new edges.
 std::shared_ptr<const Scene> blinds() {
     Room r;
     for (int i = 0; i < 7; ++i)
@@ -77,7 +78,7 @@ std::shared_ptr<const Scene> texture_edges() {
     return r.build();
 }
 
-/// Texels that are black and others that are not, smaller than a pixel, on walls and a ball in front of them.
+/// A wall and a ball with black and coloured texels smaller than a pixel.
 std::shared_ptr<const Scene> black_texels() {
     Room r;
     DiffuseMaterial checker;
@@ -107,7 +108,7 @@ std::shared_ptr<const Scene> patchwork() {
     return r.build();
 }
 
-/// The lamp reflects light too, stands free and has a dark back; a one-sided wall is black from behind.
+/// A lamp that also reflects light and has a dark back, and a one-sided wall that is black from behind.
 std::shared_ptr<const Scene> shining_wall() {
     Room r;
     r.quad({-0.5f, -0.6f, -0.3f}, {0.8f, 0, -0.3f}, {0, 0.9f, 0}, r.w, r.lamp);
@@ -116,8 +117,8 @@ std::shared_ptr<const Scene> shining_wall() {
     return r.build();
 }
 
-/// Diffuse walls that see a small lamp by way of a panel too glossy to connect to, past posts that hide the panel
-/// from one pixel and not from the next.
+/// Diffuse walls that see a lamp through a panel that is too glossy to be connectable. Posts hide the panel from
+/// some pixels and not from their neighbours.
 std::shared_ptr<const Scene> glossy_second_vertex() {
     SceneBuilder b;
     const int w = b.diffuse(white), black = b.diffuse(Rgb(0));
@@ -130,8 +131,8 @@ std::shared_ptr<const Scene> glossy_second_vertex() {
     return b.build();
 }
 
-/// All lobes of the principled BSDFs: on the floor a coat over base and metal, a ball of frosted glass, a sheet.
-std::shared_ptr<const Scene> principled(float metallic, float spec_trans, float of_sheet) {
+/// All lobes of the principled BSDFs: a floor with clear coat, a ball of frosted glass and a thin sheet.
+std::shared_ptr<const Scene> principled(float metallic, float spec_trans, float sheet_spec_trans) {
     Room r;
     PrincipledMaterial floor;
     floor.base_color = Texture(Rgb(0.7f, 0.5f, 0.2f));
@@ -147,7 +148,7 @@ std::shared_ptr<const Scene> principled(float metallic, float spec_trans, float 
     r.sphere({-0.4f, -0.5f, 0}, 0.4f, r.material({"ball", ball, false}));
     ThinPrincipledMaterial sheet;
     sheet.base_color = Texture(Rgb(0.8f, 0.7f, 0.5f));
-    sheet.spec_trans = Texture(Rgb(of_sheet));
+    sheet.spec_trans = Texture(Rgb(sheet_spec_trans));
     sheet.diff_trans = Texture(Rgb(0.9f));
     r.quad({0, -0.9f, 0.3f}, {0.8f, 0, 0.2f}, {0, 1.4f, 0}, r.material({"sheet", sheet, false}));
     return r.build();
@@ -163,7 +164,7 @@ std::shared_ptr<const Scene> ward() {
     });
 }
 
-/// A lampshade, and before the wall a layer that scatters light forward, through which one sees.
+/// A lampshade, and a transparent layer that scatters light forward.
 std::shared_ptr<const Scene> translucent() {
     Room r;
     r.sphere({-0.4f, 0.3f, 0}, 0.4f, r.material({"shade", DiffuseTransmitterMaterial{{Rgb(0.8f, 0.6f, 0.4f)}}}));
@@ -175,7 +176,7 @@ std::shared_ptr<const Scene> translucent() {
     return r.build();
 }
 
-/// Two balls of different indices: light goes through one, both, or from one to the other.
+/// Two balls of rough glass with different indices.
 std::shared_ptr<const Scene> rough_glass() {
     Room r;
     r.sphere({-0.3f, -0.4f, 0}, 0.5f, r.rough_glass(0.3f));
@@ -183,7 +184,7 @@ std::shared_ptr<const Scene> rough_glass() {
     return r.build();
 }
 
-/// Sums of what scatters, reflects and refracts, smooth and rough.
+/// Blends of diffuse, reflecting and refracting materials, smooth and rough.
 std::shared_ptr<const Scene> blends() {
     Room r;
     const int floor = r.blend(r.diffuse(green), r.mirror(), 0.4f);
@@ -202,8 +203,8 @@ std::shared_ptr<const Scene> coated() {
     return r.build();
 }
 
-/// A floor of glass, which mirrors, and of smooth plastic, which is connectable, in turns: along edges short and
-/// long, one comes to either.
+/// A chequered floor of glass, which has delta scatters only, and of smooth plastic, which is connectable. Short
+/// and long edges lead to both.
 std::shared_ptr<const Scene> glass_in_plastic() {
     Room r;
     const int glass = r.glass(3, true), plastic = r.plastic(Rgb(0.2f, 0.5f, 0.7f), 0);
@@ -214,8 +215,8 @@ std::shared_ptr<const Scene> glass_in_plastic() {
     return r.build();
 }
 
-/// A lamp behind the camera, seen in a wall of mirrors, smooth plastic, and glass, in turns: very direct light in
-/// some pixels, and light paths like any others in those beside.
+/// A lamp behind the camera, seen in a wall of mirrors, smooth plastic and glass. It is directly visible emission
+/// in mirrors, and ordinary light paths in the pixels beside them.
 std::shared_ptr<const Scene> lamp_in_mirrors() {
     Room r;
     const int kinds[] = {r.mirror(), r.plastic(Rgb(0.2f, 0.5f, 0.7f), 0), r.mirror(), r.glass(1.5f, true)};
@@ -229,8 +230,7 @@ std::shared_ptr<const Scene> phong() {
     return room_with_floor([](SceneBuilder& b) { return b.phong(Rgb(0), Rgb(0.8f, 0.7f, 0.6f), 40); });
 }
 
-/// Slats and a glossy floor, out of focus in front and behind, and a blurred lamp.
-/// Small squares seen directly, in a mirror, through glass, and by metal: what is filtered.
+/// Small squares seen directly, in a mirror, through glass and in glossy metal, for texture filtering.
 std::shared_ptr<const Scene> squares_in_mirrors() {
     Room r;
     DiffuseMaterial checker;
@@ -243,6 +243,7 @@ std::shared_ptr<const Scene> squares_in_mirrors() {
     return r.build();
 }
 
+/// Slats and a glossy floor, out of focus in front and behind, and a blurred lamp.
 std::shared_ptr<const Scene> thin_lens() {
     Room r;
     for (int i = 0; i < 5; ++i)
@@ -290,7 +291,7 @@ std::vector<TestScene> all_test_scenes() {
         {"nearly_mirror_half_vectors", nearly_mirror(), 6, 0.05f},
         {"plastic", plastic(), 5},
         {"rough_plastic", rough_plastic(), 5},
-        {"mirror", mirror_floor(), 5, 0.001f, 4}, // a pixel of it has rare bright paths
+        {"mirror", mirror_floor(), 5, 0.001f, 4}, // rare bright paths
         {"glass", glass_ball(), 7},
         {"thin_panes", thin_panes(), 6},
         {"blinds", blinds(), 4},

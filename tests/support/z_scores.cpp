@@ -44,7 +44,7 @@ struct Moments {
     }
 };
 
-/// |z| that a standard normal passes with this probability, both sides.
+/// Returns the |z| that a standard normal variable exceeds with this probability.
 double normal_limit(double probability) {
     double low = 0, high = 40;
     while (high - low > 1e-6) {
@@ -55,8 +55,10 @@ double normal_limit(double probability) {
 }
 
 double sharing_fraction(const ReuseMaps& maps) {
-    const auto shares = std::ranges::count_if(maps.reuse_set_size, [](float size) { return size > 1; });
-    return maps.reuse_set_size.empty() ? 0 : static_cast<double>(shares) / static_cast<double>(maps.reuse_set_size.size());
+    const auto reusing = std::ranges::count_if(maps.reuse_set_size, [](float size) { return size > 1; });
+    return maps.reuse_set_size.empty()
+               ? 0
+               : static_cast<double>(reusing) / static_cast<double>(maps.reuse_set_size.size());
 }
 
 } // namespace
@@ -104,7 +106,7 @@ ZResult z_test(const Measured& a, const Measured& b) {
     ZResult r;
     double squares = 0;
     double sum = 0;
-    // What is solved for is rounded as all of the picture is: beside bright pixels, no black one is exactly 0.
+    // The rounding errors of solvers are proportional to the whole picture's brightness, also in black pixels.
     double brightness = 0;
     for (const Rgb& value : b.mean)
         for (int c = 0; c < 3; ++c)
@@ -128,7 +130,7 @@ ZResult z_test(const Measured& a, const Measured& b) {
 }
 
 bool ZResult::passes() const {
-    // Channels and neighbours share their paths, so the effective number of tests is taken as a tenth.
+    // Channels and neighbours share paths, so the effective number of tests counts as a tenth (not tuned).
     const double effective = count / 10.0;
     return largest < 1.15 * limit && mean_square < 1 + 6 * std::sqrt(2 / effective) &&
            std::abs(shift) < 5 / std::sqrt(effective);

@@ -16,16 +16,15 @@
 
 namespace tessera::test {
 
-/// A BSDF to be tested, made only when its test runs: some have tables. `eta`: index below the surface over that
-/// above; 1: nothing is transmitted.
+/// A BSDF to test.
 struct Case {
     const char* name;
-    std::function<Bsdf()> bsdf;
-    float eta = 1;
-    bool is_sheet = false;       ///< transmits without bending
-    bool transmits_alike = true; ///< both ways
+    std::function<Bsdf()> bsdf; ///< constructs it only for tests that run, because some have tables
+    float eta = 1;              ///< index below the surface over the index above; 1: does not refract
+    bool is_sheet = false;      ///< transmits without refraction
+    bool has_reciprocal_transmission = true;
 
-    /// The index over that above the surface, on the side of d.
+    /// Returns the index on the side of d, relative to the index above the surface.
     float index(glm::vec3 d) const { return d.z > 0 ? 1 : eta; }
 };
 
@@ -37,7 +36,7 @@ inline glm::vec3 direction(float theta, float phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-/// Numbers in [0, 1).
+/// Random numbers in [0, 1).
 class Uniform {
 public:
     explicit Uniform(unsigned seed) : engine_(seed) {}
@@ -64,12 +63,12 @@ inline RoughConductor rough(MicrofacetDistribution d, float alpha, Rgb eta = cop
     return {{d, alpha}, eta, k, Rgb(1)};
 }
 
-/// Brushed along its bitangent.
+/// Returns anisotropic microfacets that are rougher along the bitangent.
 inline Microfacets brushed(MicrofacetDistribution d) {
     return Microfacets::anisotropic(d, 0.15f, 0.5f);
 }
 
-/// A plastic with a coating that lives as long as the program.
+/// Returns a plastic. Its coating lives until the program ends.
 inline Plastic plastic(MicrofacetDistribution d, float alpha, Rgb diffuse, bool nonlinear) {
     static std::list<Coating> coatings;
     coatings.emplace_back(1.5f, d, alpha);
@@ -93,9 +92,10 @@ inline DielectricMaterial glass(float alpha, float eta = 1.5f) {
     return m;
 }
 
-inline MixtureMaterial blend(std::shared_ptr<const Material> a, std::shared_ptr<const Material> b, float share) {
+inline MixtureMaterial blend(std::shared_ptr<const Material> a, std::shared_ptr<const Material> b,
+                             float blend_weight) {
     MixtureMaterial m{{std::move(a), std::move(b)}};
-    m.blend_weight = Texture(Rgb(share));
+    m.blend_weight = Texture(Rgb(blend_weight));
     return m;
 }
 
@@ -103,7 +103,7 @@ inline CoatedMaterial coated(std::shared_ptr<const Material> base, Rgb sigma_a, 
     return {1.5f, 0.7f, {sigma_a}, {specular}, std::move(base)};
 }
 
-/// With all lobes.
+/// Returns a principled material with all lobes.
 inline PrincipledMaterial principled(float metallic, float spec_trans) {
     PrincipledMaterial m;
     m.base_color = Texture(Rgb(0.8f, 0.4f, 0.2f));
@@ -135,7 +135,7 @@ inline ThinPrincipledMaterial thin_principled(float spec_trans, float diff_trans
     return m;
 }
 
-/// The BSDF of a material that lives as long as the program.
+/// Returns the BSDF of a material, which lives until the program ends.
 template <class Kind>
 Bsdf resolved(Kind kind) {
     static std::list<Material> materials;

@@ -1,5 +1,4 @@
-// Every BSDF: sampling follows its pdf (chi-square) and agrees with evaluate, loses or gains no energy, is
-// reciprocal.
+// Tests of every BSDF: samples follow the pdf (chi-square) and agree with evaluate(), energy and reciprocity.
 #include "render/sampling/sampling.h"
 #include "tests/surface/bsdf_cases.h"
 
@@ -85,7 +84,7 @@ private:
     const Bsdf bsdf_ = GetParam().bsdf();
 };
 
-/// Cells in (theta, phi) over the whole sphere.
+// Cells in (theta, phi) over the whole sphere.
 constexpr int rings = 32, sectors = 24;
 
 std::size_t cell_of(glm::vec3 d) {
@@ -94,7 +93,7 @@ std::size_t cell_of(glm::vec3 d) {
     return static_cast<std::size_t>(ring * sectors + sector);
 }
 
-/// Integral of pdf_w over a cell, by midpoints.
+/// Returns the integral of pdf_w over a cell, by the midpoint rule.
 double integrate(const Bsdf& bsdf, glm::vec3 to_previous, int ring, int sector) {
     constexpr int steps = 24;
     double sum = 0;
@@ -108,7 +107,7 @@ double integrate(const Bsdf& bsdf, glm::vec3 to_previous, int ring, int sector) 
     return sum * (pi / rings) * (2 * pi / sectors) / (steps * steps);
 }
 
-/// How many of the samples were no delta, and in which cell they fell.
+/// Numbers of samples, without delta scatters.
 struct Histogram {
     std::array<double, rings * sectors> cells{};
     double total = 0;
@@ -133,20 +132,20 @@ TEST_P(EveryBsdf, SamplesFollowThePdf) {
         int cells = 0;
         for (int ring = 0; ring < rings; ++ring)
             for (int sector = 0; sector < sectors; ++sector) {
-                const double here = samples * integrate(bsdf(), to_previous, ring, sector);
+                const double in_cell = samples * integrate(bsdf(), to_previous, ring, sector);
                 count += h.cells[static_cast<std::size_t>(ring * sectors + sector)];
-                expected += here;
-                total += here;
+                expected += in_cell;
+                total += in_cell;
                 if (expected < 20)
-                    continue; // cells of few samples are pooled with the next
-                // The reference integral has an error of its own, of a fraction of a percent in peaked cells.
+                    continue; // pools cells of few samples with the next ones
+                // The integral has an error of up to 1 % in cells with a peak.
                 chi2 += (count - expected) * (count - expected) / (expected + 0.01 * expected * 0.01 * expected);
                 ++cells;
                 count = expected = 0;
             }
-        // Normal approximation of the chi-square distribution, at 5 standard deviations.
+        // The limit is at 5 standard deviations of the chi-square distribution.
         EXPECT_LT(chi2, cells + 5 * std::sqrt(2.0 * cells)) << "z " << to_previous.z << ", " << cells << " cells";
-        // The midpoint rule misses up to 1.7 % of the peak at grazing views; the samples have 0.1 % of noise.
+        // The midpoint rule is inaccurate for the peaks at grazing views.
         EXPECT_NEAR(total / samples, h.total / samples, 0.02) << "z " << to_previous.z;
     }
 }
@@ -174,11 +173,11 @@ TEST_P(EveryBsdf, SamplesAgreeWithEvaluate) {
         }
 }
 
-/// The area that a direction's derivatives by both of its numbers span: 1 over the density of the lobe it is of.
-/// 0: what is drawn nearby is another lobe's.
+/// Returns the solid angle that the derivatives of a sampled direction by both random numbers span: 1 over the
+/// density of its lobe. 0: numbers nearby sample another lobe.
 double area_of_numbers(const Bsdf& bsdf, glm::vec3 to_previous, float lobe, glm::vec2 u) {
     constexpr float step = 1e-3f;
-    glm::dvec3 by[2];
+    glm::dvec3 derivatives[2];
     for (int axis = 0; axis < 2; ++axis) {
         glm::dvec3 at[4]; // -2, -1, 1 and 2 steps away
         for (int k = 0; k < 4; ++k) {
@@ -189,13 +188,14 @@ double area_of_numbers(const Bsdf& bsdf, glm::vec3 to_previous, float lobe, glm:
                 return 0;
             at[k] = s->to_next;
         }
-        by[axis] = (8.0 * (at[2] - at[1]) - (at[3] - at[0])) / (12.0 * double(step));
+        derivatives[axis] = (8.0 * (at[2] - at[1]) - (at[3] - at[0])) / (12.0 * double(step));
     }
-    return glm::length(glm::cross(by[0], by[1]));
+    return glm::length(glm::cross(derivatives[0], derivatives[1]));
 }
 
-/// Where one lobe is all there is, its density is the pdf, to 1e-3; of several, the pdf has its share in it.
-TEST_P(EveryBsdf, JacobiansOfSamplingAreThePdf) {
+/// The density of the only lobe is the pdf, up to 1e-3. With several lobes, the pdf is at least the probability of
+/// the sampled lobe times its density.
+TEST_P(EveryBsdf, JacobiansOfSamplingEqualThePdf) {
     Uniform uniform(19);
     std::vector<double> errors;
     for (const glm::vec3 to_previous : views())
@@ -207,23 +207,23 @@ TEST_P(EveryBsdf, JacobiansOfSamplingAreThePdf) {
             if (!(area > 0))
                 continue;
             constexpr int lobes = 100;
-            double chance = 0; // of the lobe
+            double lobe_probability = 0;
             for (int k = 0; k < lobes; ++k)
                 if (const auto other = bsdf().sample(to_previous, (static_cast<float>(k) + 0.5f) / lobes, u))
-                    chance += other->to_next == s->to_next && !other->is_delta ? 1.0 / lobes : 0;
-            if (chance > 1 - 0.5 / lobes)
+                    lobe_probability += other->to_next == s->to_next && !other->is_delta ? 1.0 / lobes : 0;
+            if (lobe_probability > 1 - 0.5 / lobes)
                 errors.push_back(std::abs(area * double(s->pdf_w) - 1));
             else
-                EXPECT_GT(area * double(s->pdf_w), 0.98 * chance - 1.5 / lobes);
+                EXPECT_GT(area * double(s->pdf_w), 0.98 * lobe_probability - 1.5 / lobes);
         }
     std::sort(errors.begin(), errors.end());
     if (errors.size() < 100)
-        return; // it has several
+        return; // the BSDF has several lobes
     EXPECT_LT(errors[errors.size() / 2], 1e-3);
-    EXPECT_LT(errors[errors.size() * 9 / 10], 1e-3) << "but where squares are mapped to disks with a kink";
+    EXPECT_LT(errors[errors.size() * 9 / 10], 1e-3) << "the map from the square to the disk has kinks";
 }
 
-TEST_P(EveryBsdf, DeltaPartsHaveTheirProbability) {
+TEST_P(EveryBsdf, DeltaScattersHaveTheirProbability) {
     constexpr int samples = 40000;
     for (const glm::vec3 to_previous : views()) {
         Uniform uniform(17);
@@ -237,7 +237,7 @@ TEST_P(EveryBsdf, DeltaPartsHaveTheirProbability) {
     }
 }
 
-/// f / n^2 is symmetric, n being the index on the side to which light leaves [Walter 2007, 5.2].
+/// f / n^2 is symmetric, with n as the index on the side to which light leaves [Walter 2007, 5.2].
 TEST_P(EveryBsdf, IsReciprocal) {
     Uniform uniform(3);
     for (int i = 0; i < 2000; ++i) {
@@ -248,8 +248,8 @@ TEST_P(EveryBsdf, IsReciprocal) {
             a = -a;
         if (!is_opaque() && i % 4 > 1)
             b = -b;
-        if (!GetParam().transmits_alike && a.z * b.z < 0)
-            continue; // as in Mitsuba 3, other facets are in the way for the one direction and not for the other
+        if (!GetParam().has_reciprocal_transmission && a.z * b.z < 0)
+            continue; // as in Mitsuba 3, masking differs between both directions
         const float na = GetParam().index(a), nb = GetParam().index(b);
         const Rgb there = bsdf().evaluate(a, b).f_cos / (std::abs(b.z) * na * na);
         const Rgb back = bsdf().evaluate(b, a).f_cos / (std::abs(a.z) * nb * nb);
@@ -258,7 +258,7 @@ TEST_P(EveryBsdf, IsReciprocal) {
     }
 }
 
-TEST_P(EveryBsdf, SendsOutNoMoreThanItGets) {
+TEST_P(EveryBsdf, GainsNoEnergy) {
     Uniform uniform(5);
     for (const glm::vec3 to_previous : views()) {
         double sum = 0;
@@ -266,15 +266,15 @@ TEST_P(EveryBsdf, SendsOutNoMoreThanItGets) {
         for (int i = 0; i < samples; ++i)
             if (const auto s = draw(bsdf(), to_previous, uniform)) {
                 const float relative = GetParam().index(s->to_next) / GetParam().index(to_previous);
-                sum += luminance(s->f_cos / s->pdf_w) * relative * relative; // radiance to power
+                sum += luminance(s->f_cos / s->pdf_w) * relative * relative; // from radiance to power
             }
         EXPECT_LT(sum / samples, 1.0) << "z " << to_previous.z;
         EXPECT_GT(sum / samples, 0.02) << "z " << to_previous.z;
     }
 }
 
-/// Only roughly: rough metals lose light between their facets, and lobes do at grazing views.
-TEST_P(EveryBsdf, AlbedoIsAboutWhatItSendsOut) {
+/// The tolerance is wide: rough metals lose energy between their facets, and lobes at grazing views.
+TEST_P(EveryBsdf, AlbedoIsAboutTheReflectedEnergy) {
     Uniform uniform(29);
     for (const glm::vec3 to_previous : views()) {
         const Rgb albedo = bsdf().albedo(to_previous);
@@ -292,7 +292,7 @@ TEST_P(EveryBsdf, AlbedoIsAboutWhatItSendsOut) {
     }
 }
 
-TEST_P(EveryBsdf, OpaqueOnesAreBlackBelowTheSurface) {
+TEST_P(EveryBsdf, IsBlackBelowOpaqueSurfaces) {
     if (!is_opaque())
         return;
     EXPECT_EQ(bsdf().evaluate(direction(0.5f, 0), direction(2, 1)).pdf_w, 0);
@@ -302,7 +302,7 @@ TEST_P(EveryBsdf, OpaqueOnesAreBlackBelowTheSurface) {
         EXPECT_FALSE(bsdf().sample(direction(2, 0), lobe, {0.5f, 0.5f}));
 }
 
-TEST_P(EveryBsdf, OnlyTransparentOnesHaveAnIndex) {
+TEST_P(EveryBsdf, RelativeIndexIsEtaOnBothSides) {
     const float eta = GetParam().eta;
     EXPECT_FLOAT_EQ(bsdf().relative_index(direction(0.5f, 0)), eta);
     EXPECT_FLOAT_EQ(bsdf().relative_index(direction(2, 0)), 1 / eta);

@@ -1,4 +1,4 @@
-// f cos and pdf_w as Mitsuba 3.9.1 gives them (variant scalar_rgb).
+// BSDFs against values of f cos and pdf_w from Mitsuba 3.9.1 (variant scalar_rgb).
 #include "tests/surface/bsdf_cases.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace tessera::test {
 namespace {
 
 struct Known {
-    glm::vec2 to_previous, to_next; // theta and phi
+    glm::vec2 to_previous, to_next; ///< theta and phi, radians
     Rgb f_cos;
     float pdf_w;
 };
@@ -47,7 +47,7 @@ TEST(MitsubaValues, RoughDielectric) {
                    {{2.8f, 1}, {2.5f, 4.2f}, {0.01459698f, 0.0129751f, 0.01135321f}, 0.01621887f},
                    {{2, 1}, {1.9f, 4}, {0.5668453f, 0.5038625f, 0.4408797f}, 0.6893769f},
                },
-               4e-3f); // Mitsuba has a rational fit for Beckmann's shadowing, good to 0.35 % [Walter 2007, 5.2]
+               4e-3f); // Mitsuba approximates Beckmann's shadowing up to 0.35 % [Walter 2007, 5.2]
 }
 
 TEST(MitsubaValues, Anisotropic) {
@@ -65,7 +65,7 @@ TEST(MitsubaValues, Anisotropic) {
                    {{0.7f, 1.3f}, {0.8f, 4.6f}, Rgb(0.8763471f / 0.9f), 0.973719f},
                    {{1.4f, 5}, {1.45f, 2}, Rgb(1.129382f / 0.9f), 1.607203f},
                },
-               4e-3f); // as above
+               4e-3f); // Beckmann's shadowing
     expect_all({RoughDielectric{Microfacets::anisotropic(MicrofacetDistribution::ggx, 0.5f, 0.2f), 1.5f}},
                {
                    {{0.3f, 0.2f}, {0.5f, 2.5f}, Rgb(0.009849431f), 0.009976245f},
@@ -167,9 +167,8 @@ TEST(MitsubaValues, Blend) {
                });
 }
 
-// From values of Mitsuba 3.9's `roughplastic` without its highlight, at cosines 0.9 and 0.8, for two colours of
-// the base.
-TEST(Plastic, RoughCoatingIsMitsubas) {
+/// Expected values come from Mitsuba 3.9's `roughplastic` without its specular lobe, at cosines 0.9 and 0.8.
+TEST(Plastic, RoughCoatingAgreesWithMitsuba) {
     const struct {
         float alpha, eta, internal_reflectance, both_ways;
     } cases[] = {{0.1f, 1.49f, 0.54578f, 0.41261f}, {0.1f, 1.9f, 0.72035f, 0.22390f},

@@ -1,4 +1,4 @@
-// Texture::filtered() against the mean of many points.
+// Texture::filtered() against means of many points.
 #include "render/sampling/sampling.h"
 #include "render/surface/texture.h"
 
@@ -19,7 +19,7 @@ struct Numbers {
     glm::vec2 pair() { return Random(3, ++index, 0).draw_2d(0, Draw::direction); }
 };
 
-/// A bitmap of random greys, or of one.
+/// Returns a bitmap of random greys, or of one grey.
 Texture bitmap_texture(int width, int height, bool is_random, Wrap wrap = Wrap::repeat) {
     Bitmap bitmap{width, height, false, {}, {}};
     Numbers next;
@@ -42,7 +42,7 @@ SurfacePoint point(glm::vec2 uv, glm::vec2 along, glm::vec2 across) {
     return at;
 }
 
-/// The mean of points all over the footprint.
+/// Returns the mean of evaluate() over a grid of points in the footprint.
 float mean_of_points(const Texture& texture, const SurfacePoint& at) {
     constexpr int n = 64;
     float sum = 0;
@@ -53,11 +53,12 @@ float mean_of_points(const Texture& texture, const SurfacePoint& at) {
     return sum / float(n * n);
 }
 
-/// Deviations of filtered() and evaluate() from the mean over footprints of such lengths.
+/// Rms deviations of filtered() and evaluate() from the mean over the footprint.
 struct Deviations {
     double filtered = 0, evaluated = 0;
 };
 
+/// Measures deviations for random footprints with these side lengths.
 Deviations deviations(const Texture& texture, float along, float across) {
     Numbers next;
     Deviations d;
@@ -73,7 +74,7 @@ Deviations deviations(const Texture& texture, float along, float across) {
     return {std::sqrt(d.filtered / count), std::sqrt(d.evaluated / count)};
 }
 
-TEST(TextureFilter, IsAboutTheMeanOverTheFootprint) {
+TEST(TextureFilter, ApproximatesTheMeanOverTheFootprint) {
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror}) {
         const Texture t = bitmap_texture(61, 34, true, wrap);
         for (const float across : {0.05f, 0.1f, 0.3f})
@@ -95,7 +96,7 @@ TEST(TextureFilter, IsExactOnCheckerboardsForBoxes) {
     for (int i = 0; i < 200; ++i) {
         const glm::vec2 sides = 0.05f + 2.0f * next.pair();
         const SurfacePoint at = point(next.pair() * 9.0f - 4.0f, {sides.x, 0}, {0, sides.y});
-        EXPECT_NEAR(t.filtered(at).g, mean_of_points(t, at), 0.03f); // of 64 points a side
+        EXPECT_NEAR(t.filtered(at).g, mean_of_points(t, at), 0.03f); // the mean of 64x64 points is inexact
     }
 }
 
@@ -115,16 +116,16 @@ TEST(TextureFilter, KeepsTheMean) {
 
 TEST(TextureFilter, OneColourHasTheSameBits) {
     Numbers next;
-    Texture third = bitmap_texture(3, 7, false), board = checkerboard(Rgb(0.7f), Rgb(0.7f));
-    third.scale = board.scale = 1.3f;
+    Texture bitmap = bitmap_texture(3, 7, false), board = checkerboard(Rgb(0.7f), Rgb(0.7f));
+    bitmap.scale = board.scale = 1.3f;
     for (int i = 0; i < 1000; ++i) {
         const SurfacePoint at = point(next.pair() * 9.0f - 4.0f, next.pair(), -next.pair());
-        for (const Texture& t : {third, board, Texture(Rgb(0.4f))})
+        for (const Texture& t : {bitmap, board, Texture(Rgb(0.4f))})
             EXPECT_EQ(t.filtered(at), t.evaluate(at));
     }
 }
 
-TEST(TextureFilter, APointAndLessThanAPixelAreLookedUp) {
+TEST(TextureFilter, DoesNotFilterFootprintsBelowATexel) {
     const Texture t = bitmap_texture(61, 34, true), board = checkerboard(Rgb(0.9f), Rgb(0.1f));
     Numbers next;
     for (int i = 0; i < 1000; ++i) {

@@ -1,4 +1,4 @@
-// What goes wrong while Embree works: nothing is thrown through its C interface, and it is told afterwards.
+// Errors inside Embree: no exception passes its C interface, and the program throws after Embree has returned.
 #include "render/trace/intersector.h"
 
 #include <stdexcept>
@@ -15,29 +15,29 @@ void* error_argument = nullptr;
 bool commits_fail = false;
 
 template <class Function>
-Function* embrees_own(const char* name) {
+Function* embree_function(const char* name) {
     return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
 } // namespace
 
-// The program's functions come before those of Embree's library. These are C, as far as the compiler is told: it
-// ends the program where an exception would pass.
+// These functions replace those of Embree's library, because the dynamic linker prefers symbols of the program.
+// They are noexcept, as C functions are for the compiler: an exception through them ends the program.
 extern "C" {
 
 __attribute__((visibility("default"))) void
 rtcSetDeviceErrorFunction(void* device, void (*function)(void*, int, const char*), void* argument) noexcept {
     error_function = function;
     error_argument = argument;
-    embrees_own<void(void*, void (*)(void*, int, const char*), void*)>("rtcSetDeviceErrorFunction")(
+    embree_function<void(void*, void (*)(void*, int, const char*), void*)>("rtcSetDeviceErrorFunction")(
         device, function, argument);
 }
 
 __attribute__((visibility("default"))) void rtcCommitScene(void* scene) noexcept {
-    embrees_own<void(void*)>("rtcCommitScene")(scene);
+    embree_function<void(void*)>("rtcCommitScene")(scene);
     if (commits_fail) {
         error_function(error_argument, 4, "out of memory");
-        error_function(error_argument, 1, "and what follows from it");
+        error_function(error_argument, 1, "a consequence of the first error");
     }
 }
 }
@@ -53,7 +53,7 @@ std::vector<Shape> triangle() {
     return shapes;
 }
 
-TEST(EmbreeErrors, AreThrownOnceEmbreeHasReturned) {
+TEST(EmbreeErrors, AreThrownAfterEmbreeHasReturned) {
     const std::vector<Shape> shapes = triangle();
     commits_fail = true;
     std::string message;
@@ -65,13 +65,13 @@ TEST(EmbreeErrors, AreThrownOnceEmbreeHasReturned) {
     commits_fail = false;
     EXPECT_EQ(message, "there is not enough memory for the BVH");
     Hit hit;
-    EXPECT_TRUE(Intersector(shapes).closest({{0.2f, 0.2f, 1}, {0, 0, -1}}, hit)); // another one is none the worse
+    EXPECT_TRUE(Intersector(shapes).closest({{0.2f, 0.2f, 1}, {0, 0, -1}}, hit)); // later objects work
 }
 
 struct Unexpected {};
 
-/// What a monitor throws comes out as it is, and not as an error of Embree's.
-TEST(EmbreeErrors, AMonitorMayThrow) {
+/// An exception of a monitor reaches the caller unchanged, and not as an error of Embree.
+TEST(EmbreeErrors, PassOnExceptionsOfAMonitor) {
     const std::vector<Shape> shapes = triangle();
     const BuildMonitor monitor([](double) -> bool { throw Unexpected(); });
     EXPECT_THROW(Intersector{shapes}, Unexpected);
