@@ -2,6 +2,7 @@
 #include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
 #include "app/cli/terminal.h"
+#include "app/cli/version.h"
 #include "app/commands/commands.h"
 #include "app/experiment/experiment.h"
 #include "render/io/files.h"
@@ -67,6 +68,15 @@ int render(const CLI::App& command, const Words& words, RenderOptions options) {
     return run_render(options);
 }
 
+/// Returns the default reconstruction of each method, such as "pt none, gpr guided".
+std::string default_norms() {
+    std::string text;
+    for (const Method method : all_methods)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", short_name(method),
+                            to_string(default_norm(has_gradients(method))));
+    return text;
+}
+
 void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     CLI::App& command = *app.add_subcommand("render", "render a scene to an EXR file");
     add_scene(command, words, true);
@@ -75,7 +85,7 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     add_setting(command, spp_setting(words.spp))->default_str(std::to_string(default_spp));
     limit_to_seconds(command.add_option("--time", words.time, "render time in seconds, without loading"));
     add_clock(command, words.clock);
-    add_norms(command, words.norms, "or several: one layer each (default guided with gradients)");
+    add_norms(command, words.norms, "or several: one layer each (default: " + default_norms() + ")");
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
@@ -216,20 +226,20 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
 
 int run_command_line(int argc, char** argv) {
     CLI::App app("Tessera: explore light transport by path reuse", "tessera");
-    app.set_version_flag("--version", TESSERA_VERSION);
+    app.set_version_flag("--version", version_text());
     // A repeated option overrides the earlier ones.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Words render_words, view_words, info_words;
     RenderOptions render_options;
     ExperimentArguments sweep_words, bench_words, stability_words;
-    ReferenceArguments describe_references;
+    ReferenceArguments reference_arguments;
     MergeOptions merge_options;
     CompareOptions compare_options;
     ViewOptions view_options;
     ReconstructArguments reconstruct_words;
     add_view(app, view_words, view_options);
     add_render(app, render_words, render_options);
-    add_reference(app, describe_references);
+    add_reference(app, reference_arguments);
     add_merge(app, merge_options);
     add_sweep(app, sweep_words);
     add_bench(app, bench_words);
@@ -264,7 +274,7 @@ int run_command_line(int argc, char** argv) {
     if (app.got_subcommand("stability"))
         return run_stability(parse_experiment(*app.get_subcommand("stability"), stability_words));
     if (app.got_subcommand("reference"))
-        return run_reference(parse_reference(*app.get_subcommand("reference"), describe_references));
+        return run_reference(parse_reference(*app.get_subcommand("reference"), reference_arguments));
     if (app.got_subcommand("merge"))
         return run_merge(merge_options);
     if (app.got_subcommand("view"))

@@ -157,7 +157,7 @@ inline RgbImage grey(const Image<float>& numbers) {
     return image;
 }
 
-/// Data that turn pictures of the coefficient e = v / a into radiance v, METHODS (27). The albedo a > 0 is
+/// Data that turn pictures of the coefficient e = v / a into radiance v, theory (27). The albedo a > 0 is
 /// approximately that of what the pixel sees, and 0 where it sees nothing: Lossless Basis Expansion [Fang 2024]
 /// with one function. All images have one size. If all are empty, primal and gradients are those of v itself.
 struct Demodulation {
@@ -170,7 +170,7 @@ struct Demodulation {
     // Variance and covariance over a pixel's samples, per channel; 0 for one sample.
     RgbImage sampled_variance; ///< of a
     RgbImage value_covariance; ///< of v with a
-    /// V_e' of METHODS (47): variance of m(e) that a does not explain, summed over the channels.
+    /// V_e' of reconstruction (47): variance of m(e) that a does not explain, summed over the channels.
     Image<float> unexplained_variance;
 
     static constexpr std::size_t bytes_a_pixel = 5 * sizeof(Rgb) + 3 * sizeof(float);
@@ -178,10 +178,10 @@ struct Demodulation {
 };
 
 /// Component l of the coefficient e, for one function of the direction that light comes from [Fang 2024]. e is the
-/// sum of projection times component, METHODS (31). Each component is smoother than e where normals or roughness
+/// sum of projection times component, theory (31). Each component is smoother than e where normals or roughness
 /// change. All images have one size.
 struct BasisComponent {
-    Image<float> projection; ///< s^l of each pixel, METHODS (30)
+    Image<float> projection; ///< s^l of each pixel, theory (30)
     RgbImage primal, dx, dy; ///< e^l, and its forward differences
     /// Variances of these means, summed over the channels; empty if they are unknown.
     Image<float> primal_variance{}, dx_variance{}, dy_variance{};
@@ -201,7 +201,7 @@ struct BrightestSamples {
     bool empty() const { return primal.empty(); }
 };
 
-/// Features of the first surface on a camera ray that is neither a mirror nor clear glass, METHODS (43).
+/// Features of the first surface on a camera ray that is neither a mirror nor clear glass, reconstruction (43).
 struct SurfaceFeatures {
     Rgb albedo{0};       ///< of the surface, times the attenuation by mirrors and glass; 1: no surface
     glm::vec3 normal{0}; ///< shading normal, unit, in world space; 0: no surface
@@ -227,8 +227,8 @@ struct FeatureImages {
     bool empty() const { return albedo.empty(); }
 };
 
-/// Half differences N of METHODS (41): they have expectation 0 and the variance of the mean. All images have one
-/// size. dx and dy are empty without gradients; all are empty if unknown.
+/// Half differences N of reconstruction (41): they have expectation 0 and the variance of the mean. All images
+/// have one size. dx and dy are empty without gradients; all are empty if unknown.
 struct HalfDifferences {
     RgbImage primal, dx, dy; ///< of the images of GradientImages
 

@@ -20,9 +20,9 @@ inline float brightness_of(Rgb light) {
     return std::max((light.r + light.g + light.b) / 3, 0.0f);
 }
 
-/// Returns L of METHODS (42), the mean brightness around each pixel, > 0: the unit of what counts as dark. It is a
-/// mean over squares of the given radius, taken twice, so that it depends only on pixels within twice the radius
-/// and not on the frame.
+/// Returns L of reconstruction (42), the mean brightness around each pixel, > 0: the unit of what counts as dark.
+/// It is a mean over squares of the given radius, taken twice, so that it depends only on pixels within twice the
+/// radius and not on the frame.
 /// @param brightness  >= 0; NaN and values above 1e20 count as 1e20
 Image<float> local_mean_brightness(Image<float> brightness, int radius, const ParallelFor& parallel_for);
 

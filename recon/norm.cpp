@@ -25,15 +25,13 @@ Guarantee guarantee_of(Norm norm) {
     case Norm::l1:
         return {consistent, "At few samples it follows the median of the primal, which is darker than the mean."};
     case Norm::mixed:
-        return {consistent, "Gradients that it takes for outliers have less weight: edges may be shifted at few "
-                            "samples."};
+        return {consistent, "Gradients taken for outliers weigh less: edges may shift at few samples."};
     case Norm::weighted:
         return {consistent, "Weights depend on the same samples: details may be too smooth at few samples."};
     case Norm::guided:
     case Norm::smoothed:
         return {consistent,
-                "Fireflies are clamped and their energy is redistributed, and what looks like noise is "
-                "filtered; both vanish as samples grow."};
+                "Fireflies are clamped, noise is filtered; both vanish as samples grow."};
     case Norm::oidn:
         return {biased, "A neural network decides what is noise."};
     }

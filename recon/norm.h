@@ -8,15 +8,15 @@
 
 namespace tessera {
 
-/// Reconstruction of a picture from primal, gradients and features, METHODS (32) to (37). All but `guided` and
-/// `smoothed` use raw samples, as published.
+/// Reconstruction of a picture from primal, gradients and features, reconstruction (32) to (37). All but `guided`
+/// and `smoothed` use raw samples, as published.
 enum class Norm {
     none,     ///< the raw primal
-    l2,       ///< screened Poisson: least squares of gradients and primal, METHODS (33) [Kettunen 2015]
-    l1,       ///< least sum of lengths of the misfits of gradients and primal, METHODS (34) [Kettunen 2015]
-    mixed,    ///< lengths of the gradients' misfits, squares of the primal's, METHODS (35)
-    uniform,  ///< uniform control variates: iterated means of neighbours plus gradients, METHODS (36)
-    weighted, ///< least squares with weights from the variances (weights_of_gradients), METHODS (37)
+    l2,       ///< screened Poisson: least squares of gradients and primal, reconstruction (33) [Kettunen 2015]
+    l1,       ///< least sum of lengths of the misfits of gradients and primal, reconstruction (34) [Kettunen 2015]
+    mixed,    ///< lengths of the gradients' misfits, squares of the primal's, reconstruction (35)
+    uniform,  ///< uniform control variates: iterated means of neighbours plus gradients, reconstruction (36)
+    weighted, ///< least squares with weights from the variances (weights_of_gradients), reconstruction (37)
     guided,   ///< Tessera's denoiser on `weighted` (recon/guided/guided.h)
     smoothed, ///< Tessera's denoiser on the primal, without gradients
     oidn      ///< Intel Open Image Denoise on the raw radiance
@@ -62,8 +62,8 @@ struct Guarantee {
     std::string_view reason; ///< one sentence: the reason, and the bias at few samples
 };
 
-/// Returns the guarantee of a reconstruction. Help, tooltips and the table in METHODS.md have their words from
-/// here.
+/// Returns the guarantee of a reconstruction. Help, tooltips and the table in docs/reconstruction.md have their
+/// words from here.
 /// @param norm  as applied() returns it
 Guarantee guarantee_of(Norm norm);
 

@@ -93,7 +93,7 @@ std::string machine_text();
 /// Returns the date in UTC, such as "2026-11-22".
 std::string today();
 
-/// Returns the version and a checksum of the program file, which distinguishes builds: "0.1.0 5f3a0c11".
+/// Returns the version and a checksum of the program file, which distinguishes builds: "0.2.0 5f3a0c11".
 const std::string& program_identity();
 
 } // namespace tessera

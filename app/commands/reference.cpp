@@ -23,7 +23,7 @@ void add_reference(CLI::App& app, ReferenceArguments& words) {
         "error, which is printed and written to the header, and each pixel's variance, the layer variance. "
         "That error does not contain the bias of a biased reconstruction (all but none, l2 and uniform), "
         "which is the same in both halves. The layer doubt is each pixel's relative standard error, or 1 "
-        "where a single sample makes more than a quarter of the pixel or no sample found radiance.\n"
+        "where the brightest sample is a firefly or no sample found radiance.\n"
         "The method (-m, by default G-PR) and the reconstruction (--recon, by default l2, which is linear and "
         "unbiased; none for methods without gradients) are printed and in the header. They do not depend on "
         "what is rendered. A bias of the judged method does not show against a reference by the same method: "
@@ -88,8 +88,8 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
                to_string(origin_of(reference)), error.relative_mse, error.standard_error);
     if (const double fraction = untrusted_fraction(reference.doubt); fraction > 0)
         fmt::print(
-            "{:.2g} % of its pixels are unreliable: their error is above {:g} %, a single sample makes more "
-            "than a quarter of them, or no sample found radiance (layer doubt)\n",
+            "{:.2g} % of its pixels are unreliable: their error is above {:g} %, their brightest "
+            "sample is a firefly, or no sample found radiance (layer doubt)\n",
             100 * fraction, 100 * untrusted_threshold);
 }
 

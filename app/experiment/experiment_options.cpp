@@ -103,7 +103,7 @@ void add_experiment(CLI::App& command, ExperimentArguments& words) {
 constexpr const char* common_footer =
     "A job is a scene and a seed, and with --spp one point of the variations. Within a job, methods take "
     "turns pass by pass. Several processes with the same command, on one machine or on machines that share "
-    "the folder, divide the jobs (CLUSTER.md). Finished jobs are in OUTPUT/jobs; after an interruption, the "
+    "the folder, divide the jobs (docs/cluster.md). Finished jobs are in OUTPUT/jobs; after an interruption, the "
     "same command continues from there. Another build (without --any-build), scene file, reference or "
     "setting starts new jobs.\n"
     "References are REFERENCE/SCENE-WxH-dDEPTH.exr, as `tessera reference` makes them. Missing ones are "

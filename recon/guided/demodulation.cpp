@@ -37,13 +37,13 @@ std::vector<Sum> sums_around(int y, int width, int height, ValueOf value_of) {
     return sums;
 }
 
-/// S_va and S_aa of METHODS (46): sums over 3x3 pixels of the (co)variances over each pixel's samples.
+/// S_va and S_aa of reconstruction (46): sums over 3x3 pixels of the (co)variances over each pixel's samples.
 struct SlopeSums {
     Rgb covariance, variance; ///< S_va, S_aa
 };
 
-/// Returns b of METHODS (46), the slope of v over a. The prior E has more weight where V_a exceeds the variance of
-/// the samples: neighbours whose albedo hardly changes say nothing of this pixel.
+/// Returns b of reconstruction (46), the slope of v over a. The prior E has more weight where V_a exceeds the
+/// variance of the samples: neighbours whose albedo hardly changes say nothing of this pixel.
 Rgb slope(const GradientImages& images, const SlopeSums& sums, float prior, Rgb light, int x, int y) {
     constexpr float least = 1e-4f; // relative to A^2: smaller differences may be rounding
     constexpr float most = 1e10f;  // keeps products finite, whatever a file holds
@@ -56,7 +56,7 @@ Rgb slope(const GradientImages& images, const SlopeSums& sums, float prior, Rgb 
     return (sums.covariance + weight * light) / glm::max(sums.variance + weight, 1e-20f);
 }
 
-/// Writes rho = m(v) - A m(e) - b (m(a) - A) of row y, METHODS (45).
+/// Writes rho = m(v) - A m(e) - b (m(a) - A) of row y, reconstruction (45).
 void write_covariance(const GradientImages& images, const RgbImage& light, float prior, int y, RgbImage& rho) {
     const Demodulation& d = images.demodulation;
     const int width = light.width();
@@ -73,8 +73,8 @@ void write_covariance(const GradientImages& images, const RgbImage& light, float
     }
 }
 
-/// Returns k of the pixels of row y, METHODS (47). The noise is a squared mean of roots: in a mean of squares one
-/// noisy pixel would hide the covariance of all pixels around.
+/// Returns k of the pixels of row y, reconstruction (47). The noise is a squared mean of roots: in a mean of
+/// squares one noisy pixel would hide the covariance of all pixels around.
 std::vector<float> trust(const GradientImages& images, const RgbImage& rho, int y) {
     const Demodulation& d = images.demodulation;
     const auto sums = sums_around<glm::dvec3>(y, rho.width(), rho.height(), [&](int x, int j) {

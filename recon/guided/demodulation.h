@@ -11,14 +11,14 @@ namespace tessera {
 // Remodulation: makes the radiance v from the coefficient e = v / a, where a is the albedo. With m as the mean
 // over the samples, A as the mean albedo of the pixel and E as the reconstructed coefficient,
 //     V = A E + rho .
-// rho estimates the covariance of a and e within a pixel, METHODS (28). Where both change, as at edges of objects,
+// rho estimates the covariance of a and e within a pixel, theory (28). Where both change, as at edges of objects,
 // the mean of their product is not the product of their means.
 
-/// Replaces E by V, METHODS (29). V is unbiased if E is a linear function of the samples: A is the mean over
+/// Replaces E by V, theory (29). V is unbiased if E is a linear function of the samples: A is the mean over
 /// points that are independent of the samples, and rho = m(v) - A m(e). V keeps the noise of the samples' albedos.
 void recombine(const GradientImages& images, RgbImage& image, const ParallelFor& parallel_for);
 
-/// Replaces E by V with less noise, METHODS (45) to (47); consistent. A is known_albedo(), and
+/// Replaces E by V with less noise, reconstruction (45) to (47); consistent. A is known_albedo(), and
 ///     rho = k (m(v) - A m(e) - b (m(a) - A)) .
 /// b is the slope of v over a within the pixel, by regression over the samples of 3x3 pixels, with E as prior. As
 /// a control variate, it removes the noise of where the samples fell on a texture or on two surfaces. k in [0, 1]

@@ -32,7 +32,7 @@ struct PixelRuns {
     int x, y, to_x, to_y, count;
 };
 
-/// Returns s of METHODS (44), about exp(-u), and 0 for u >= 8.
+/// Returns s of reconstruction (44), about exp(-u), and 0 for u >= 8.
 float similarity(float u) {
     float w = std::max(0.0f, 1 - u * 0.125f);
     w *= w;
@@ -68,8 +68,8 @@ void write_weights_by_features(const FeaturePlanes& features, int step, const Pa
     });
 }
 
-/// Calls visit(i, d) for the pixels columns.begin + i of row y, with d of METHODS (49): the squared difference of
-/// log brightness to the pixel a step further on, over the variance of their noise.
+/// Calls visit(i, d) for the pixels columns.begin + i of row y, with d of reconstruction (49): the squared
+/// difference of log brightness to the pixel a step further on, over the variance of their noise.
 /// @param brightness, noise  logarithm of the brightness, and the variance of its noise
 template <class Visit>
 void for_distances(const Plane& brightness, const Plane& noise, int y, KernelPair step, PairedPixels columns,

@@ -13,12 +13,12 @@
 
 namespace tessera {
 
-// Kernels of pixels with similar features, METHODS (43) and (44): the 13 of 5x5 pixels with |i| + |j| <= 2, a step
-// apart [a-trous wavelets, Dammertz 2010]. The weight is that of a cubic spline times about
+// Kernels of pixels with similar features, reconstruction (43) and (44): the 13 of 5x5 pixels with |i| + |j| <= 2,
+// a step apart [a-trous wavelets, Dammertz 2010]. The weight is that of a cubic spline times about
 //     exp(-sum of (differences of features / widths)^2) .
 // A pair has the same weight from both sides.
 
-/// Features divided by the widths of GuidedParameters, METHODS (43). Empty planes: unknown, all pixels are
+/// Features divided by the widths of GuidedParameters, reconstruction (43). Empty planes: unknown, all pixels are
 /// similar.
 inline constexpr int feature_count = 8;
 using FeaturePlanes = std::array<Plane, feature_count>;
@@ -55,14 +55,14 @@ struct WeightScratch {
     Plane pairs, rows;
 };
 
-/// Writes the weights of the pairs in rows and columns for a noisy brightness, METHODS (48) and (49). Each is the
-/// weight by features times about exp(-D / square_width). D is a mean over all pairs with the same offset in a
-/// square three quarters as wide as the kernel: the mean squared difference of brightness over the variance of its
-/// noise. Squares decide, as patches do in non-local means [Buades 2005]. A single noisy pixel does not, and a
-/// pattern that noise hides between two pixels is found.
+/// Writes the weights of the pairs in rows and columns for a noisy brightness, reconstruction (48) and (49). Each
+/// is the weight by features times about exp(-D / square_width). D is a mean over all pairs with the same offset
+/// in a square three quarters as wide as the kernel: the mean squared difference of brightness over the variance
+/// of its noise. Squares decide, as patches do in non-local means [Buades 2005]. A single noisy pixel does not,
+/// and a pattern that noise hides between two pixels is found.
 /// @param by_features  weights by features of pairs `step` apart
 /// @param brightness   logarithm of the brightness
-/// @param noise        variance of the noise of that logarithm, METHODS (50)
+/// @param noise        variance of the noise of that logarithm, reconstruction (50)
 void write_noisy_weights(const PairWeights& by_features, const Plane& brightness, const Plane& noise, int step,
                          const GuidedParameters& parameters, const ParallelFor& parallel_for,
                          WeightScratch& scratch, StraightWeights& weights);

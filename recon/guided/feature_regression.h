@@ -8,10 +8,10 @@
 
 namespace tessera {
 
-// Regression of radiance on features, METHODS (53). A pixel at an edge shows fractions of both sides, and no pixel
-// nearby has similar features, so that kernels leave it its noise. Radiance and the means of albedo, normal, depth
-// and roughness are about linear in these fractions. In squares of 5x5 pixels, radiance is therefore fitted by a
-// first-order function of the features f [Bitterli 2016],
+// Regression of radiance on features, reconstruction (53). A pixel at an edge shows fractions of both sides, and
+// no pixel nearby has similar features, so that kernels leave it its noise. Radiance and the means of albedo,
+// normal, depth and roughness are about linear in these fractions. In squares of 5x5 pixels, radiance is therefore
+// fitted by a first-order function of the features f [Bitterli 2016],
 //     minimise over a, s   sum over q of w_q (x_q - a - s . (f_q - f_p))^2 ,
 // and pixel p becomes a. A ridge draws the slopes s to 0, so that there is always a solution. The result is linear
 // in the values x, so that the same map applies to their noise.

@@ -13,7 +13,7 @@ namespace tessera {
 
 namespace {
 
-/// Returns o of METHODS (57), the luminance of the mean of a pixel's samples other than the brightest.
+/// Returns o of reconstruction (57), the luminance of the mean of a pixel's samples other than the brightest.
 float size_of_others(const RgbImage& mean, const RgbImage& brightest, std::size_t i, float n) {
     return n / (n - 1) * size_of(mean.data()[i] - brightest.data()[i] / n);
 }
@@ -28,7 +28,7 @@ Image<float> others_around(const GradientImages& images, const ParallelFor& para
     return square_means(own, 1, 0, 0, parallel_for);
 }
 
-/// Factors t of a pixel's primal and of its gradients, METHODS (56).
+/// Factors t of a pixel's primal and of its gradients, reconstruction (56).
 struct Limits {
     float primal = 1, gradients = 1;
 };
@@ -84,7 +84,7 @@ void limit_demodulation(const GradientImages& images, std::size_t i, double t, g
                                  static_cast<double>(images.primal_variance.data()[i]), t, b.samples));
 }
 
-/// Returns H of METHODS (58), the mean radiance that pixel i loses with t.
+/// Returns H of reconstruction (58), the mean radiance that pixel i loses with t.
 glm::dvec3 removed_of(const BrightestSamples& b, std::size_t i, double t) {
     const glm::dvec3 a = b.albedo.empty() ? glm::dvec3(1) : glm::dvec3(b.albedo.data()[i]);
     return (1 - t) / b.samples * a * glm::dvec3(b.primal.data()[i]);

@@ -8,8 +8,8 @@
 
 namespace tessera {
 
-// Firefly suppression, METHODS (56) to (58). A sample x of a pixel with n samples moves the pixel's mean by x / n.
-// The brightest sample of a pixel is clamped to
+// Firefly suppression, reconstruction (56) to (58). A sample x of a pixel with n samples moves the pixel's mean by
+// x / n. The brightest sample of a pixel is clamped to
 //     t x,   t = min(1, max(firefly_factor, firefly_fraction n) mu / |x|),
 // where |.| is a luminance. mu is the mean of the other samples over 3x3 pixels, or firefly_own times the mean of
 // the pixel's own other samples, whichever is larger: a pixel that is bright in every sample has no firefly. The
@@ -26,7 +26,7 @@ bool can_clamp(const GradientImages& images);
 /// Means without fireflies, and the radiance that was removed from them.
 struct ClampedSamples {
     GradientImages images; ///< primal, gradients, variances, halves and demodulation; the rest is empty
-    RgbImage clamped;      ///< H of METHODS (58), radiance removed from the mean; >= 0 where the sample is
+    RgbImage clamped;      ///< H of reconstruction (58), radiance removed from the mean; >= 0 where the sample is
 };
 
 /// Clamps the brightest sample of each pixel. Needs can_clamp().

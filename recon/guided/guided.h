@@ -16,8 +16,8 @@ namespace tessera {
 
 class PictureSolvers;
 
-// Tessera's denoiser, METHODS (41) to (60): `guided` for methods with gradients, `smoothed` for the primal alone.
-// Its stages:
+// Tessera's denoiser, reconstruction (41) to (62): `guided` for methods with gradients, `smoothed` for the primal
+// alone. Its stages:
 //   1 fireflies       clamps the brightest sample of each pixel                      (fireflies.h)
 //   2 edge weights    weights gradients by their variances; guided only              (edge_weights.h)
 //   3 solve           weighted screened Poisson, of the picture and of its noise; guided only (poisson_weighted.h)
@@ -34,7 +34,7 @@ class PictureSolvers;
 struct GuidedFit {
     std::optional<FeatureKernels> kernels;
     EdgeWeights weights;
-    Image<float> local; ///< L of METHODS (42)
+    Image<float> local; ///< L of reconstruction (42)
     NearbyBrightness nearby;
     FilterFit filter;
 

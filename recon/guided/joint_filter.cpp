@@ -47,8 +47,8 @@ public:
                 *plane = Plane(width_, height_, Unfilled());
     }
 
-    /// Replaces light by its last level plus the trusted differences of all levels, METHODS (51). Returns false if
-    /// stopped.
+    /// Replaces light by its last level plus the trusted differences of all levels, reconstruction (51). Returns
+    /// false if stopped.
     bool filter_levels(AnyPlanes& light, const SolveWatch& watch) {
         auto differences = black_planes<AnyPlanes>(width_, height_, parallel_for_);
         const std::size_t levels = std::min(parameters_.levels, FilterFit::most_levels);
@@ -81,7 +81,7 @@ public:
         });
     }
 
-    /// Replaces radiance by its regression on features plus the trusted difference to it, METHODS (55).
+    /// Replaces radiance by its regression on features plus the trusted difference to it, reconstruction (55).
     void regress(AnyPlanes& radiance) {
         Plane weights(width_, height_, Unfilled()), rows(width_, height_, Unfilled());
         write_relative_weights(radiance, weights, rows);
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    /// Finds the kernel weights of a level, METHODS (48) to (50).
+    /// Finds the kernel weights of a level, reconstruction (48) to (50).
     void find_weights(const NoisyPlanes& light, std::size_t level) {
         const int step = FeatureKernels::steps[level];
         Plane& noise = shrinkage_.noise;
@@ -118,8 +118,9 @@ private:
         write_trust(finer, coarser_, dark_, radius, parallel_for_, shrinkage_, trust);
     }
 
-    /// Writes the weights of METHODS (54), the inverse squared mean brightness around each pixel, so that relative
-    /// errors count. The pixel's own brightness would favour pixels that noise makes dark, and darken the picture.
+    /// Writes the weights of reconstruction (54), the inverse squared mean brightness around each pixel, so that
+    /// relative errors count. The pixel's own brightness would favour pixels that noise makes dark, and darken the
+    /// picture.
     void write_relative_weights(const AnyPlanes& radiance, Plane& weights, Plane& rows) {
         for_pixels(width_, height_, parallel_for_,
                    [&](std::size_t i) { weights.data()[i] = brightness_at(radiance, dark_.data()[i], i); });

@@ -18,11 +18,12 @@ namespace tessera {
 // tiles.
 //
 // Level l + 1 is level l filtered by kernels of 9 pixels, in the row and the column of the centre, 3^l apart,
-// METHODS (48) to (50) [Dammertz 2010 has 25 pixels, 2^l apart]. Weights fall with the distance of features, and
-// with that of brightness relative to the noise of the level [Schied 2017]. The result is the last level plus the
-// differences between levels, each times its trust, METHODS (51) and (52) (recon/guided/shrinkage.h). A regression
-// on features (recon/guided/feature_regression.h) then removes noise at edges, with a trust as well, METHODS (55).
-// As samples grow, N goes to 0 and trust to 1: the filter is consistent. It is not linear in the samples.
+// reconstruction (48) to (50) [Dammertz 2010 has 25 pixels, 2^l apart]. Weights fall with the distance of
+// features, and with that of brightness relative to the noise of the level [Schied 2017]. The result is the last
+// level plus the differences between levels, each times its trust, reconstruction (51) and (52)
+// (recon/guided/shrinkage.h). A regression on features (recon/guided/feature_regression.h) then removes noise at
+// edges, with a trust as well, reconstruction (55). As samples grow, N goes to 0 and trust to 1: the filter is
+// consistent. It is not linear in the samples.
 
 /// Weights and trust that the filter finds from a picture and its noise. With them, a picture of nearly the same
 /// samples is filtered without its noise. Empty: not found yet.
@@ -42,7 +43,7 @@ struct FilterFit {
 /// kept exactly. Returns a picture with values that are not finite or above 1e28 unchanged. The result has the
 /// same bits for any parallel_for.
 /// @param picture  with noise: fills `fit`; without: uses `fit`
-/// @param local    L of METHODS (42)
+/// @param local    L of reconstruction (42)
 /// @returns the filtered picture and noise; empty: stopped
 NoisyPicture filter(NoisyPicture picture, const FeatureImages& features, const FeatureKernels& kernels,
                     const Image<float>& local, const GuidedParameters& parameters, FilterFit& fit,

@@ -16,7 +16,7 @@ namespace tessera {
 using Planes = std::array<Plane, 3>;
 using NoisyPlanes = std::array<Plane, 6>;
 
-/// Picture and its noise N, METHODS (41). Empty noise: unknown.
+/// Picture and its noise N, reconstruction (41). Empty noise: unknown.
 struct NoisyPicture {
     RgbImage image, noise;
 };
@@ -52,7 +52,7 @@ float brightness_at(const AnyPlanes& planes, float dark, std::size_t i) {
     return std::max(mean_of(planes, 0, i), 0.0f) + dark;
 }
 
-/// Adds trust (finer - coarser) to `sum`, METHODS (51). `sum` may be `coarser` itself.
+/// Adds trust (finer - coarser) to `sum`, reconstruction (51). `sum` may be `coarser` itself.
 template <class AnyPlanes>
 void add_difference(const Plane& trust, const AnyPlanes& finer, const AnyPlanes& coarser,
                     const ParallelFor& parallel_for, AnyPlanes& sum) {

@@ -49,7 +49,7 @@ Image<float> raised_to_energy(const Image<float>& local_light, const RgbImage& e
     return local;
 }
 
-/// Returns S of METHODS (60).
+/// Returns S of reconstruction (60).
 Channels followed_brightness(const RgbImage& picture, const FeatureImages& features, const Image<float>& local,
                              const GuidedParameters& parameters, const ParallelFor& parallel_for) {
     Channels brightness;
@@ -62,7 +62,7 @@ Channels followed_brightness(const RgbImage& picture, const FeatureImages& featu
     return brightness;
 }
 
-/// Replaces H by S K(H / K(S)), METHODS (59), with the K of one level.
+/// Replaces H by S K(H / K(S)), reconstruction (59), with the K of one level.
 /// @param ratio  scratch planes, any content
 void spread_one_level(const Channels& brightness, const PairWeights& weights, int step,
                       const ParallelFor& parallel_for, Channels& energy, Channels& ratio) {

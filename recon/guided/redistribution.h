@@ -9,9 +9,9 @@
 
 namespace tessera {
 
-// Redistribution of the energy H that is clamped from fireflies (recon/guided/fireflies.h), METHODS (59). The
-// energy is known to exist, and not where. With a symmetric kernel K and a brightness S that the energy follows, H
-// becomes
+// Redistribution of the energy H that is clamped from fireflies (recon/guided/fireflies.h), reconstruction (59).
+// The energy is known to exist, and not where. With a symmetric kernel K and a brightness S that the energy
+// follows, H becomes
 //     S K(H / K(S)) ,
 // which has the same sum: pixel q gives to p the fraction S(p) K(p, q) / (sum over p' of S(p') K(p', q)).
 
@@ -25,9 +25,9 @@ struct NearbyBrightness {
 };
 
 /// Adds `energy` to the picture. First it goes to pixels with similar features, by their brightness and albedo,
-/// METHODS (60), up to largest_addition of S. The rest goes to the pixels nearby, whatever their features, by the
-/// mean brightness of the pixels similar to each. The sum over the picture is kept up to rounding.
-/// @param local    L of METHODS (42), > 0
+/// reconstruction (60), up to largest_addition of S. The rest goes to the pixels nearby, whatever their features,
+/// by the mean brightness of the pixels similar to each. The sum over the picture is kept up to rounding.
+/// @param local    L of reconstruction (42), > 0
 /// @param picture  radiance without directly visible emission
 /// @returns the brightness that the rest followed
 NearbyBrightness redistribute(RgbImage energy, const FeatureKernels& kernels, const FeatureImages& features,

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float largest = 1e30f; // of variances, so that sums stay finite
 
-/// Returns s, METHODS (62). Means are of roots of s, because a few bright pixels would decide a mean of s.
+/// Returns s, reconstruction (62). Means are of roots of s, because a few bright pixels would decide a mean of s.
 Plane standard_errors(const Image<float>& variances, const FeatureKernels& kernels,
                       const GuidedParameters& parameters, const ParallelFor& parallel_for) {
     const auto own = [&](std::size_t i) { return std::sqrt(std::min(variances.data()[i], largest)); };

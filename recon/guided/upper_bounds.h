@@ -7,11 +7,11 @@
 
 namespace tessera {
 
-// Upper bounds, METHODS (61) and (62). A solver and a filter give a dark pixel beside a bright one some of the
-// light beside it: little for the bright pixel, far too much for the frame of a sunlit window. Where pixels share
-// their paths, a dark pixel has seen the paths of its neighbours and knows that it is dark. The picture is limited
-// to P + bound_reach s, with P as the radiance that the pixel's own samples give and s as its standard error. The
-// limit is consistent, as s goes to 0 and P to the radiance.
+// Upper bounds, reconstruction (61) and (62). A solver and a filter give a dark pixel beside a bright one some of
+// the light beside it: little for the bright pixel, far too much for the frame of a sunlit window. Where pixels
+// share their paths, a dark pixel has seen the paths of its neighbours and knows that it is dark. The picture is
+// limited to P + bound_reach s, with P as the radiance that the pixel's own samples give and s as its standard
+// error. The limit is consistent, as s goes to 0 and P to the radiance.
 
 /// Returns whether bounds apply: there are variances, pixels share their paths (GradientImages::patch is above 1),
 /// and there are no basis components. A pixel that has only its own paths is often dark by chance.

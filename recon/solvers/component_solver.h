@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// Reconstructs a coefficient E = sum of s^l E^l, METHODS (31), from all its components at once [Fang 2024, eq.
+/// Reconstructs a coefficient E = sum of s^l E^l, theory (31), from all its components at once [Fang 2024, eq.
 /// 19]: minimises the sum over the pixels of
 ///     sum over l of w_x^l |Dx E^l - dx^l|^2 + w_y^l |Dy E^l - dy^l|^2
 ///     + v_x |Dx E - dx|^2 + v_y |Dy E - dy|^2 + (alpha |E - primal|)^2 ,

@@ -41,7 +41,7 @@ Image<float> variances_from_neighbours(const RgbImage& values, int columns, int 
     return variances;
 }
 
-/// Squared brightness B that variances are relative to, METHODS (40).
+/// Squared brightness B that variances are relative to, reconstruction (40).
 struct Brightness {
     Image<float> squares; ///< (b + dark L)^2
 
@@ -84,7 +84,7 @@ Image<float> relative(const Image<float>& variances, const Brightness& brightnes
     return result;
 }
 
-/// Returns w of METHODS (38), for a primal of weight alpha^2.
+/// Returns w of reconstruction (38), for a primal of weight alpha^2.
 float weight(float alpha, float k, float gradient_variance, float one_primal_variance,
              float other_primal_variance) {
     const float primal = alpha * alpha * std::min(one_primal_variance, other_primal_variance),
@@ -92,8 +92,8 @@ float weight(float alpha, float k, float gradient_variance, float one_primal_var
     return noise > 0 ? primal / (primal + noise) : 1;
 }
 
-/// Returns V of METHODS (40), for an image or its gradients; 0 in the last `columns` and `rows`, where gradients
-/// are undefined.
+/// Returns V of reconstruction (40), for an image or its gradients; 0 in the last `columns` and `rows`, where
+/// gradients are undefined.
 /// @param measured  sample variances; empty: estimated from neighbours
 Image<float> variances_around(const RgbImage& values, const Image<float>& measured, int radius,
                               const Brightness& brightness, int columns, int rows,

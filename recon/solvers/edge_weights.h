@@ -9,14 +9,14 @@
 
 namespace tessera {
 
-/// Returns a of METHODS (39), the weight of the primal in a weighted reconstruction, for a setting of alpha. It is
-/// smaller than alpha, since the weights already reduce the trust in noisy gradients. It falls with the fourth
-/// root of the edge of tiles, whose pixels share their noise.
+/// Returns a of reconstruction (39), the weight of the primal in a weighted reconstruction, for a setting of
+/// alpha. It is smaller than alpha, since the weights already reduce the trust in noisy gradients. It falls with
+/// the fourth root of the edge of tiles, whose pixels share their noise.
 inline float weighted_alpha(float alpha, float patch, const GuidedParameters& parameters = {}) {
     return parameters.alpha_scale * alpha / std::sqrt(std::sqrt(patch));
 }
 
-/// Returns the weights of gradients, METHODS (38) and (39), from the variances V of `images`. alpha is
+/// Returns the weights of gradients, reconstruction (38) and (39), from the variances V of `images`. alpha is
 /// weighted_alpha().
 ///
 /// In image-space control variates [Rousselle 2016], a neighbour plus the gradient between both pixels is one more
@@ -27,8 +27,9 @@ inline float weighted_alpha(float alpha, float patch, const GuidedParameters& pa
 /// and would take over the other's noise. A gradient has one weight for both of its pixels, so that the
 /// reconstruction keeps the primal's mean.
 ///
-/// Sample variances are noisy, and are replaced by means over squares, relative to a squared brightness, METHODS
-/// (40). Without variances, as after one sample, they are estimated from the differences between neighbours.
+/// Sample variances are noisy, and are replaced by means over squares, relative to a squared brightness,
+/// reconstruction (40). Without variances, as after one sample, they are estimated from the differences between
+/// neighbours.
 EdgeWeights weights_of_gradients(const GradientImages& images, float alpha,
                                  const GuidedParameters& parameters = {},
                                  const ParallelFor& parallel_for = serial_for);

@@ -26,13 +26,13 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// Writes a reconstruction from raw samples, METHODS (33) to (37), of primal and gradients or of the
+    /// Writes a reconstruction from raw samples, reconstruction (33) to (37), of primal and gradients or of the
     /// components of a basis. With a basis it is the coefficient.
     /// @param norm  l2, l1, mixed, uniform or weighted
     SolveStats solve(const GradientImages& images, Norm norm, float alpha, RgbImage& picture,
                      const ParallelFor& parallel_for, const SolveWatch& watch);
 
-    /// Solves METHODS (37) for given weights, and returns the number of steps.
+    /// Solves reconstruction (37) for given weights, and returns the number of steps.
     /// @param alpha     weighted_alpha()
     /// @param are_kept  the weights are those of the last picture, so that fewer steps suffice
     int solve_weighted(const GradientImages& images, float alpha, const EdgeWeights& weights, bool are_kept,

@@ -48,7 +48,7 @@ private:
     std::vector<Block> blocks_;
 };
 
-/// Solves screened Poisson problems of one size directly, METHODS (33).
+/// Solves screened Poisson problems of one size directly, reconstruction (33).
 ///
 /// The matrix of the normal equations is A = alpha^2 + Dx^T Dx + Dy^T Dy. Dx^T Dx of a row is the second
 /// difference with free ends. Its eigenvectors are the cosine waves c_k(x) = cos(pi k (2x + 1) / (2 width)), with

@@ -9,7 +9,7 @@ namespace tessera {
 
 /// Norm and numbers of iterations of an L1 solve.
 struct L1Settings {
-    bool square_primal = false; ///< METHODS (35): the primal's misfit is squared, which keeps its mean
+    bool square_primal = false; ///< reconstruction (35): the primal's misfit is squared, which keeps its mean
     int cold_iterations = 25;   ///< inner solves of a cold start, >= 1
     int warm_iterations = 5;    ///< inner solves of a warm start, >= 1
 };
@@ -18,11 +18,11 @@ struct L1Settings {
 /// thousand pixels. Outliers hardly change it. Returns 1 for a black image.
 float typical_value(const RgbImage& image);
 
-/// The screened Poisson problem with lengths of colours, so that the channels agree on outliers, METHODS (34).
-/// Minimises the sum over the pixels of
+/// The screened Poisson problem with lengths of colours, so that the channels agree on outliers, reconstruction
+/// (34). Minimises the sum over the pixels of
 ///     |Dx I - dx| + |Dy I - dy| + alpha |I - primal| ,
 /// or, with square_primal, with (alpha |I - primal|)^2 / typical_value(primal) as last term, which has the same
-/// unit, METHODS (35).
+/// unit, reconstruction (35).
 ///
 /// The method is the alternating direction method of multipliers [Boyd et al. 2011, 3 and 6.1]. Let K = (Dx, Dy,
 /// 1) and g = (dx, dy, primal). K I is split off as d, with the scaled dual variable u, and in turn

@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// The screened Poisson problem, METHODS (33): the image I that minimises
+/// The screened Poisson problem, reconstruction (33): the image I that minimises
 ///     |Dx I - dx|^2 + |Dy I - dy|^2 + (alpha |I - primal|)^2 ,
 /// where Dx and Dy are forward differences inside the image. All images have one size, at least 1 by 1. The last
 /// column of dx and the last row of dy are not read. Its normal equations are A I = b with
@@ -68,8 +68,9 @@ private:
     std::vector<double> kernel_; ///< t(i - (2 height - 1))
 };
 
-/// Uniform image-space control variates, METHODS (36) [Rousselle 2016]. Each neighbour plus the gradient to the
-/// pixel is an estimate of the pixel, which takes the mean of these and of itself, repeatedly from the primal on,
+/// Uniform image-space control variates, reconstruction (36) [Rousselle 2016]. Each neighbour plus the gradient to
+/// the pixel is an estimate of the pixel, which takes the mean of these and of itself, repeatedly from the primal
+/// on,
 ///     I <- I + (sum over neighbours n of I(n) + gradient from n - I) / 5 .
 /// This is gradient descent on the gradients' misfits. Stopping it takes the role of alpha in the screened Poisson
 /// problem. At the border, the pixel itself replaces a missing neighbour, so that the mean is kept.

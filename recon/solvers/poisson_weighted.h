@@ -36,8 +36,8 @@ struct WeightedSettings {
     int warm_iterations = 3; ///< from the last correction
 };
 
-/// The screened Poisson problem with a weight for each gradient, METHODS (37): minimises the sum over the pixels
-/// of
+/// The screened Poisson problem with a weight for each gradient, reconstruction (37): minimises the sum over the
+/// pixels of
 ///     w_x |Dx I - dx|^2 + w_y |Dy I - dy|^2 + (alpha |I - primal|)^2 .
 /// The normal equations are A I = b with A = alpha^2 + Dx^T w_x Dx + Dy^T w_y Dy. Every column of A sums to
 /// alpha^2, so that the image has the mean of the primal, whatever the weights.

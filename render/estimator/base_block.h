@@ -18,7 +18,7 @@ namespace tessera {
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number = 0);
 
-/// Mean over several base paths of a pixel that reuses no paths, METHODS (21).
+/// Mean over several base paths of a pixel that reuses no paths, theory (21).
 struct MeanOfPaths {
     Rgb coefficient{0}, very_direct{0};
     AlbedoMoments<Rgb> moments; ///< of albedo and radiance

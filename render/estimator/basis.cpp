@@ -17,7 +17,7 @@ namespace {
 // 5/16) / (4 pi). With functions of a length of the root of that, it is 1.
 constexpr float length = 0.458907f;
 
-/// g_0, 0.3 times g of a diffuse surface in the direction of its normal (TRIALS.md, "Parts of light").
+/// g_0, 0.3 times g of a diffuse surface in the direction of its normal (docs/decisions.md).
 constexpr float g_0 = 0.3f * inv_pi;
 
 /// One vector of lanes.

@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-// Lossless Basis Expansion [Fang 2024] with tiles and antialiasing, METHODS (30) and (31).
+// Lossless Basis Expansion [Fang 2024] with tiles and antialiasing, theory (30) and (31).
 //
 // x_1 of a pixel with albedo a scatters light from direction w by g(w) = f cos / a, so the coefficient of the
 // pixel is e = integral of g h, with arriving radiance h. All pixels use the same functions b^l(w). g is the sum
@@ -66,7 +66,7 @@ public:
     /// Adds light paths in one lane.
     void add(int lane, glm::vec3 direction, Rgb f_cos, Rgb carried);
 
-    /// Computes the components e^l of pixel m, METHODS (31).
+    /// Computes the components e^l of pixel m, theory (31).
     /// @param coefficient  e, the radiance over the albedo
     /// @param projection   s^l
     /// @param parts        receives parts() components

@@ -45,7 +45,7 @@ DirectionMap::DirectionMap(const Shares& shares) {
 }
 
 ShareCandidates second_moments(float value, float pdf_w, float guided, float used) {
-    const float own = std::max(pdf_w - used * guided, 0.0f) / (1 - used); // p_BSDF, METHODS (22)
+    const float own = std::max(pdf_w - used * guided, 0.0f) / (1 - used); // p_BSDF, theory (22)
     ShareCandidates squares;
     for (std::size_t i = 0; i < squares.size(); ++i)
         squares[i] = value * value * (pdf_w / ((1 - share_candidates[i]) * own + share_candidates[i] * guided));

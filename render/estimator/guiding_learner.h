@@ -39,7 +39,7 @@ private:
     /// Sums over the samples of one cell. Effective numbers of samples are (sum w)^2 / sum w^2.
     struct Sums {
         std::array<float, DirectionMap::bins> first{}, second{}; ///< irradiance and its square, by bin
-        std::array<double, share_candidates.size()> squares{};   ///< second_moments(), METHODS (23)
+        std::array<double, share_candidates.size()> squares{};   ///< second_moments(), theory (23)
         double fourth = 0;                                       ///< square of the first of these, without a guide
 
         void add(const FoundLight& found, const DirectionGuide* known);

@@ -51,7 +51,7 @@ struct CellStatistics {
 /// The noise of gradients shows the benefit of reuse. rho is the length of that noise with reuse, divided by its
 /// length for plain differences of base paths; it is a mean over sets, weighted by the roots of the latter. rho^2
 /// is about the remaining fraction of the squared error. If rho^2 times the cost in samples of path tracing
-/// exceeds 1, the pixels of a cell reuse no paths: each takes the mean of several base paths, METHODS (21). Their
+/// exceeds 1, the pixels of a cell reuse no paths: each takes the mean of several base paths, theory (21). Their
 /// number is the mean cost of reuse elsewhere, so a pass takes about as long everywhere. The pilot pass measures
 /// rho in small sets, where it is about as large as in whole tiles.
 ///

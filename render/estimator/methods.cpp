@@ -39,7 +39,7 @@ std::span<const Rgb> own_components(const Pass& pass, int x, int y, Rgb coeffici
     return worker.own_components;
 }
 
-/// Path tracing: T = {k}, so R = 1, and the pixel gets c_k of METHODS (4), with the MIS weights of emitter and
+/// Path tracing: T = {k}, so R = 1, and the pixel gets c_k of theory (4), with the MIS weights of emitter and
 /// BSDF sampling [Veach 1997].
 void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
@@ -106,7 +106,7 @@ void for_each_position(const Pass& pass, PixelRect block, Worker& worker, Visit&
     }
 }
 
-/// Path reusing: T is a tile or an N-rooks pattern, and each pixel gets METHODS (9) [Bekaert 2002]; with the
+/// Path reusing: T is a tile or an N-rooks pattern, and each pixel gets theory (9) [Bekaert 2002]; with the
 /// shift that copies half vectors it is generalized path reusing [Bauszat 2017, 3.1].
 void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
@@ -120,7 +120,7 @@ void render_pr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
 }
 
 /// Gradient-domain path tracing [Kettunen 2015]: each gradient is the difference of two neighbours that reuse
-/// each other's base paths, METHODS (13). The primal is the mean over the sets of the pixel with each of its
+/// each other's base paths, theory (13). The primal is the mean over the sets of the pixel with each of its
 /// neighbours; a pixel without neighbours has its path-traced radiance. A pixel's counters cover the shifts to
 /// it.
 void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
@@ -135,7 +135,7 @@ void render_gpt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     for_each_square(area, 1, [&](PixelRect p) { add_reused(pass, p.x0, p.y0, worker, film); });
 }
 
-/// Computes the means of `count` base paths, METHODS (21), for each pixel of worker.set, which reuses no paths.
+/// Computes the means of `count` base paths, theory (21), for each pixel of worker.set, which reuses no paths.
 /// Pixels of the border get the radiance of their first path; if they are in a later set without reuse, that set
 /// overwrites it.
 void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
@@ -151,7 +151,7 @@ void take_means(const Pass& pass, PixelRect inner, int count, Worker& worker) {
     }
 }
 
-/// Adds pixels that reuse no paths. Their gradients are plain differences of their means, METHODS (21), so a
+/// Adds pixels that reuse no paths. Their gradients are plain differences of their means, theory (21), so a
 /// reconstruction returns these means. Gradients across the block's border and to pixels with reuse differ
 /// slightly.
 void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Worker& worker, Film& film) {
@@ -171,8 +171,8 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
 }
 
 /// Gradient-domain path reusing [Bauszat 2017]. Each pixel m of T receives c_m / R from every light path of T,
-/// METHODS (9), so a gradient is the sum of (c_n - c_m) / R, METHODS (13). With albedo demodulation it is the sum
-/// of (c_n / a_n - c_m / a_m) / R, METHODS (27), because one albedo divides all radiance of a pixel.
+/// theory (9), so a gradient is the sum of (c_n - c_m) / R, theory (13). With albedo demodulation it is the sum
+/// of (c_n / a_n - c_m / a_m) / R, theory (27), because one albedo divides all radiance of a pixel.
 void render_gpr(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
     const PixelRect area = block.clipped(pass.size);
     trace_base_paths(pass, area, area.with_halo(pass.size), worker);

@@ -78,7 +78,7 @@ public:
     /// net share a row or a column, in contrast to a grid, so vertical and horizontal edges have little noise.
     Rgb very_direct(const Tracer& tracer, int x, int y) const;
 
-    /// Returns the albedo a of METHODS (27) by which a base path's radiance is divided: that of x_1, or of the
+    /// Returns the albedo a of theory (27) by which a base path's radiance is divided: that of x_1, or of the
     /// surface that mirrors show there; black where the path sees nothing; 1 if settings.basis has no albedo.
     Rgb albedo_of(const BasePath& path) const;
     /// Takes feature sample `point` of a pixel. The points of a pixel are a net that is independent of the

@@ -157,7 +157,7 @@ float PathReuse::ratio_sum(int slot) const {
     return sum;
 }
 
-/// Adds c_m / R of all light paths to the pixels, METHODS (9) and (20).
+/// Adds c_m / R of all light paths to the pixels, theory (9) and (20).
 void PathReuse::balance(int base, float scale, std::span<Rgb> radiance) const {
     for (int slot = light_.first_shared(); slot <= light_.last_alive(); ++slot) {
         if (!light_.is_alive(slot))

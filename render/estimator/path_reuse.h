@@ -10,12 +10,12 @@
 namespace tessera {
 
 /// The estimator of all methods. For a sampling set T, it adds to each pixel m of T
-///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x)   METHODS (9) and (20)
-///   R(x) = sum over n in T of g_n r_n(x)                                       METHODS (8) and (20)
+///   sum over base paths k in T and their light paths x of  g_k c_m(x) / R(x)   theory (9) and (20)
+///   R(x) = sum over n in T of g_n r_n(x)                                       theory (8) and (20)
 /// c_m and r_m are value and ratio of x shifted to m (OffsetRow). g is 1 unless T has several camera positions.
 /// 1/R is the weight of the balance heuristic over all pixels of T [Bekaert 2002, 4; Bauszat 2017, eq. 8],
-/// derived in METHODS (10) to (12). A method is a choice of T. Differences between pixels of one T are gradients,
-/// METHODS (13).
+/// derived in theory (10) to (12). A method is a choice of T. Differences between pixels of one T are gradients,
+/// theory (13).
 class PathReuse {
 public:
     PathReuse(const Tracer& tracer, const ShiftSettings& settings)
@@ -26,7 +26,7 @@ public:
     /// @param counts  g of each base path (SamplingSet::counts); must stay valid until the next begin()
     void begin(std::span<const BasePath* const> set, std::span<const float> counts);
 
-    /// Shifts one base path to all pixels of T and adds its light to them, METHODS (9).
+    /// Shifts one base path to all pixels of T and adds its light to them, theory (9).
     /// @param base      index of the base path in the set
     /// @param scale     1/q of Russian roulette on reuse. 0: the path is not reused, and only its light that is
     ///                  never shifted is added, to its own pixel.
@@ -57,7 +57,7 @@ public:
 
     const LightPaths& light_paths() const { return light_; }
     const OffsetPaths& offset_paths() const { return paths_; }
-    /// Returns the weight g_k / R of a light path, METHODS (9) and (20), times `scale`; 0 if it carries no light.
+    /// Returns the weight g_k / R of a light path, theory (9) and (20), times `scale`; 0 if it carries no light.
     float weight(int slot, float scale) const {
         const float count = counts_[base_];
         return light_.is_alive(slot) ? scale * count / ratio_sum(slot) : 0;
@@ -78,7 +78,7 @@ private:
     void balance(int base, float scale, std::span<Rgb> radiance) const;
     void add_own_arriving(const BasePath& path, int slot, float factor, int lane, ArrivingLight& arriving) const;
     void balance_components(int base, float scale, ArrivingLight& arriving);
-    /// Returns R of a light path, METHODS (8) and (20).
+    /// Returns R of a light path, theory (8) and (20).
     float ratio_sum(int slot) const;
 
     Tracer tracer_;

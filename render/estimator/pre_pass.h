@@ -30,7 +30,7 @@ void show_very_direct(const Pass& pass, int view, PixelRect block, const Tracer&
 /// Number of points of a pixel from which its projections are computed.
 inline constexpr int projection_points = 4;
 
-/// Computes the projections s of METHODS (30) of the pixels of a block.
+/// Computes the projections s of theory (30) of the pixels of a block.
 void find_projections(const Pass& pass, PixelRect block, const Tracer& tracer, Film& film);
 
 } // namespace tessera

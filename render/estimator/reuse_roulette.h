@@ -24,10 +24,10 @@ struct ReuseDecision {
 /// Absolute: L is the radiance toward the camera, and the threshold is rr_delta [Bauszat 2017, 3.3]. Relative: L
 /// is the arriving luminance (PathReuse::arriving_luminance). A path that begins on a dark texel is as useful to
 /// bright texels as any other path; its own small radiance would end it too often, with a large weight 1/q. The
-/// threshold is one standard deviation of L over the set, the noise that hides a lost path (TRIALS.md, "scale of
-/// the reuse roulette"). The relative roulette does not depend on the unit of radiance. An evenly lit set keeps
-/// all its paths; a set with few bright paths spends its time on them. q depends only on base paths of the same
-/// pass, and survivors weigh 1/q, so the estimate stays unbiased.
+/// threshold is one standard deviation of L over the set, the noise that hides a lost path (docs/decisions.md).
+/// The relative roulette does not depend on the unit of radiance. An evenly lit set keeps all its paths; a set
+/// with few bright paths spends its time on them. q depends only on base paths of the same pass, and survivors
+/// weigh 1/q, so the estimate stays unbiased.
 class ReuseRoulette {
 public:
     /// Least probability of reuse for a path with light [Bauszat 2017]. It is positive, because a path can

@@ -21,7 +21,7 @@ struct SamplingSet {
     std::vector<glm::ivec2> pixels;
     std::vector<const BasePath*> paths; ///< that the pixels see from the current position
     std::vector<const BasePath*> base;  ///< base paths, for any position
-    /// g of METHODS (20), the number of samples for which a base path counts: 1 with one position. With several,
+    /// g of theory (20), the number of samples for which a base path counts: 1 with one position. With several,
     /// all positions count for the same number of samples, even if they have different numbers of paths.
     std::vector<float> counts;
     std::vector<Rgb> radiance;
@@ -49,9 +49,9 @@ struct SamplingSet {
         return std::find(pixels.begin(), pixels.end(), pixel) != pixels.end();
     }
 
-    /// Returns the demodulated radiance e of entry i at the current position, METHODS (27).
+    /// Returns the demodulated radiance e of entry i at the current position, theory (27).
     Rgb coefficient(int i) const { return tessera::coefficient(radiance[i], albedo[i]); }
-    /// Computes all basis components, METHODS (31), if the basis has any.
+    /// Computes all basis components, theory (31), if the basis has any.
     void expand(const Film& film);
     std::span<const Rgb> components_of(int i) const {
         const auto count = static_cast<std::size_t>(arriving.components());
@@ -63,10 +63,10 @@ struct SamplingSet {
     void count(const ReuseDecision& decision, int k);
 };
 
-/// Primal and gradients, METHODS (13), of the pixels of a block: means over all sampling sets that contain the
+/// Primal and gradients, theory (13), of the pixels of a block: means over all sampling sets that contain the
 /// pixel, or both pixels of the gradient. Each set weighs its number of pixels, the number of base paths in its
 /// estimate. This includes the sets that contain a pixel as their border, at no extra cost. A set with several
-/// positions reuses some of its base paths at each position; its result is the sum over positions, METHODS (19).
+/// positions reuses some of its base paths at each position; its result is the sum over positions, theory (19).
 /// The caller must add all sets of the block at position 0, and then the sets with several positions at each
 /// further position.
 class SetMeans {

@@ -10,7 +10,7 @@ namespace tessera {
 
 namespace {
 
-/// Computes g of METHODS (20) for a set with several positions: every position that has paths counts for the same
+/// Computes g of theory (20) for a set with several positions: every position that has paths counts for the same
 /// number of samples.
 void balance_turns(const Pass& pass, SamplingSet& set) {
     std::array<int, edge_positions> turns{};

@@ -16,7 +16,7 @@ void collect(const Pass& pass, const BaseBlock& block, SamplingSet& set);
 /// Decides by Russian roulette whether base path k of worker.set is reused. Counts the result.
 ReuseDecision decide_on_reuse(int k, const ReuseRoulette& roulette, Worker& worker);
 
-/// Estimates the radiance of all pixels of worker.set from the base paths of all of them, METHODS (9). All pixels
+/// Estimates the radiance of all pixels of worker.set from the base paths of all of them, theory (9). All pixels
 /// must be in worker.base. A set with several positions reuses the base paths whose turn is the current position.
 /// @param kind  a path is reused with the probability q of this kind of ReuseRoulette, and weighs 1/q [Bauszat
 ///              2017, 3.3]

@@ -10,8 +10,8 @@ namespace tessera {
 
 namespace {
 
-/// Returns the sign s_k of a pass in METHODS (41). Of the 2^k passes from pass 2^k on, the first half and the
-/// second half are one net each (Pass::random). The difference of two nets shows the noise of the mean; halves
+/// Returns the sign s_k of a pass in reconstruction (41). Of the 2^k passes from pass 2^k on, the first half and
+/// the second half are one net each (Pass::random). The difference of two nets shows the noise of the mean; halves
 /// that split a net would overestimate it.
 float sign_of(int pass) {
     const auto p = static_cast<unsigned>(pass);

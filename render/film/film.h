@@ -16,7 +16,7 @@
 
 namespace tessera {
 
-/// Returns e = v / a, METHODS (27), of radiance v and albedo a, or 0 for a black radiance. A pixel that sees
+/// Returns e = v / a, theory (27), of radiance v and albedo a, or 0 for a black radiance. A pixel that sees
 /// nothing has v = a = 0, so v = a e holds for any e.
 inline Rgb coefficient(Rgb radiance, Rgb albedo) {
     return is_black(radiance) ? Rgb(0) : radiance / albedo;
@@ -110,7 +110,7 @@ public:
     /// more of a pixel keeps them. Path luminances are those of `other`.
     void add(const Film& other);
 
-    /// Returns the projections s^l of a pixel, METHODS (30): FilmBuffers::parts numbers. set_projection() must set
+    /// Returns the projections s^l of a pixel, theory (30): FilmBuffers::parts numbers. set_projection() must set
     /// them before the pixel's first sample.
     const float* projection(int x, int y) const { return projections_.row(y) + x * buffers_.components; }
     void set_projection(int x, int y, const float* numbers) {
@@ -154,8 +154,8 @@ private:
         float size = 0; ///< largest |luminance| of primal, dx and dy
     };
 
-    // The half sums are the sums of s_k x_k in METHODS (41). Floats suffice: their rounding stays far below the
-    // noise that half differences measure.
+    // The half sums are the sums of s_k x_k in reconstruction (41). Floats suffice: their rounding stays far below
+    // the noise that half differences measure.
 
     struct PixelSums {
         Moments primal;
@@ -174,8 +174,8 @@ private:
     };
     using AlbedoSums = AlbedoMoments<glm::dvec3>;
 
-    /// Computes half differences, METHODS (41), from sums. The weights s_k - S / n sum to 0 for every n. `scale`
-    /// makes their squares sum to n, as those of the mean do.
+    /// Computes half differences, reconstruction (41), from sums. The weights s_k - S / n sum to 0 for every n.
+    /// `scale` makes their squares sum to n, as those of the mean do.
     struct HalfWeights {
         double balance = 0; ///< S / n
         double scale = 1;   ///< (1 - S^2 / n^2)^(-1/2)

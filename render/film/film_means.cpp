@@ -29,8 +29,8 @@ float variance_of(const Moments& m, double n) {
 
 /// Measures how albedo a, radiance v and coefficient e of pixel i vary from sample to sample. With S for sums of
 /// products of deviations from the means, the part of e that follows a explains S_ea^2 / S_aa of S_ee. The rest
-/// gives V_e' of METHODS (47). Since a e = v, S_ea follows from the mean of v. For samples that are means, S_aa
-/// includes the variance within them and S_ea does not, so the explained part is underestimated.
+/// gives V_e' of reconstruction (47). Since a e = v, S_ea follows from the mean of v. For samples that are means,
+/// S_aa includes the variance within them and S_ea does not, so the explained part is underestimated.
 void Film::measure_samples(std::size_t i, int passes, Demodulation& result) const {
     const double n = passes;
     AlbedoSums mean = albedos_.data()[i];

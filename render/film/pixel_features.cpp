@@ -69,7 +69,7 @@ PixelFeatures::Points PixelFeatures::around(int x, int y) const {
 
 void PixelFeatures::request_more(int passes) {
     // The albedo's relative variance must be well below that of radiance, which is 0.1 to 1 for one sample. The
-    // variance of features must be well below the squared widths of METHODS (43).
+    // variance of features must be well below the squared widths of reconstruction (43).
     constexpr double albedo_limit = 0.004, feature_limit = 0.003;
     constexpr double most = 1 << 20;
     const auto needed = [](double variance, double limit) { return std::pow(variance / limit, 2 / 3.0); };

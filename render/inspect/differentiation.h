@@ -60,9 +60,9 @@ struct Turn {
     float log_value = 0;
 };
 
-/// Propagates derivatives along a path [Suykens 2001, 3 and 4.2; METHODS, Path differentials]. The path has two
-/// random numbers for its position in the pixel, and two for each scatter by a lobe. Numbers that choose among
-/// lobes have a derivative of 0, but their probabilities enlarge the footprint.
+/// Propagates derivatives along a path [Suykens 2001, 3 and 4.2; docs/theory.md, "Path differentials"]. The path
+/// has two random numbers for its position in the pixel, and two for each scatter by a lobe. Numbers that choose
+/// among lobes have a derivative of 0, but their probabilities enlarge the footprint.
 ///
 /// The derivative of a scatter is a linear map to changes of the next direction, with six columns: two each for
 /// the vertex's position, the incident direction, and the scatter's own numbers. The columns are computed once per
@@ -80,7 +80,7 @@ public:
     /// Starts a path at a point of the picture, in pixels, and of the lens (CameraSample::lens).
     void start(const Projection& projection, glm::vec2 pixel, glm::vec2 lens);
 
-    /// Transfers the derivatives along a ray to a surface, METHODS (24).
+    /// Transfers the derivatives along a ray to a surface, theory (24).
     /// @param normal  of the triangle that the ray hits after `distance`
     void arrive(const Ray& ray, float distance, glm::vec3 normal);
 

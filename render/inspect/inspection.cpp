@@ -58,7 +58,7 @@ bool is_invalid(const InspectedSet& set, glm::ivec2 pixel, const RenderSettings&
                              (is_bad(pixel + glm::ivec2(1, 0)) || is_bad(pixel + glm::ivec2(0, 1))));
 }
 
-/// Returns the same for a pixel without reuse, METHODS (21): checks all its paths and those of its neighbours.
+/// Returns the same for a pixel without reuse, theory (21): checks all its paths and those of its neighbours.
 bool is_mean_refused(const Pass& pass, glm::ivec2 pixel, Worker& worker) {
     for (const glm::ivec2 p : {pixel, pixel + glm::ivec2(1, 0), pixel + glm::ivec2(0, 1)}) {
         if (p.x >= pass.size.x || p.y >= pass.size.y)

@@ -62,15 +62,15 @@ struct InspectedStep {
 /// One base path shifted to another pixel. A base path carries several light paths; `ratio`, `jacobian`, `weight`
 /// and `steps` are those of the one with the largest contribution.
 struct InspectedShift {
-    glm::ivec2 from, to;           ///< pixels; equal: the base path in its own pixel
-    bool is_tried;                 ///< false: the path carries no light, or the roulette on reuse ended it
-    ShiftOutcome outcome;          ///< has no meaning unless it was tried
-    float ratio;                   ///< r_m, METHODS (6); 1 for the base path in its own pixel
-    float jacobian;                ///< |J|, the product over all steps; 0: no light was reached
-    float weight;                  ///< g/R, METHODS (20), over the survival probability of the roulette on reuse
-    Rgb value;                     ///< contribution to the pixel: sum of weight times c_m, radiance
-    std::vector<glm::vec3> offset; ///< y_1, y_2, ... of the offset path
-    std::vector<glm::vec3> beyond; ///< the base path from the reconnection vertex on; empty: it was not reached
+    glm::ivec2 from, to;              ///< pixels; equal: the base path in its own pixel
+    bool is_tried;                    ///< false: the path carries no light, or the roulette on reuse ended it
+    ShiftOutcome outcome;             ///< has no meaning unless it was tried
+    float ratio;                      ///< r_m, theory (6); 1 for the base path in its own pixel
+    float jacobian;                   ///< |J|, the product over all steps; 0: no light was reached
+    float weight;                     ///< g/R, theory (20), over the survival probability of the roulette on reuse
+    Rgb value;                        ///< contribution to the pixel: sum of weight times c_m, radiance
+    std::vector<glm::vec3> offset;    ///< y_1, y_2, ... of the offset path
+    std::vector<glm::vec3> beyond;    ///< the base path from the reconnection vertex on; empty: it was not reached
     std::vector<InspectedStep> steps; ///< of one light path; only for shifts of the inspected pixel
     std::string_view ending;          ///< strategy that found the light; empty: no light was reached
 };

@@ -188,7 +188,7 @@ void Observer::add_steps(int base, int m, int slot, InspectedShift& s) const {
     }
 }
 
-/// Adds scalar footprints, METHODS (25) and (26), as if the offset path had been sampled from its own pixel.
+/// Adds scalar footprints, theory (25) and (26), as if the offset path had been sampled from its own pixel.
 /// Survival probabilities are those of the base path.
 void Observer::add_footprints(int base, int m, std::vector<InspectedStep>& steps) const {
     const BasePath& own = path(m);

@@ -79,7 +79,7 @@ Footprint reduce(const NumberVectors& segments, int count, glm::vec3 normal);
 /// Returns the area of that polygon.
 float area_of_sum(const NumberVectors& segments, int count, glm::vec3 normal);
 
-/// Approximates a footprint by the width of a square and the angle by which it grows, METHODS (25) and (26). It
+/// Approximates a footprint by the width of a square and the angle by which it grows, theory (25) and (26). It
 /// uses the pixel's angle, distances, cosines and pdfs only, and assumes flat surfaces. It has no gradient; deltas
 /// are global.
 class ScalarFootprint {
@@ -87,12 +87,12 @@ public:
     /// Starts with a camera ray.
     explicit ScalarFootprint(PixelWidth pixel) : width_(pixel.least), angle_(pixel.angle) {}
 
-    /// Transfers the footprint to the next vertex, METHODS (25).
+    /// Transfers the footprint to the next vertex, theory (25).
     /// @param cosine  absolute cosine between the ray and the normal at that vertex
     void arrive(float distance, float cosine) {
         width_ = (width_ * std::sqrt(cosine_) + angle_ * distance) / std::sqrt(cosine);
     }
-    /// Scatters at the vertex, METHODS (26).
+    /// Scatters at the vertex, theory (26).
     /// @param cosine     absolute cosine between the next ray and the normal
     /// @param roughness  alpha; ignored for a delta scatter, as is pdf_w
     void scatter(float cosine, bool is_delta, float roughness, float pdf_w, float survival) {

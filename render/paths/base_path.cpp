@@ -57,7 +57,7 @@ bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int
     const BsdfValue b = x.evaluate(drawn.to_light);
     if (is_black(b.f_cos))
         return false;
-    // The balance heuristic of emitter and BSDF sampling, METHODS (3) and (4) [Veach 1997, 9.2.2].
+    // The balance heuristic of emitter and BSDF sampling, theory (3) and (4) [Veach 1997, 9.2.2].
     drawn.f_cos = b.f_cos;
     drawn.pdf_w = seen->pdf_w;
     drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
@@ -80,7 +80,7 @@ void sample_light(const Tracer& tracer, int index, RayKind kind, BasePath& path)
         complete_light(tracer, drawn);
 }
 
-/// Stores the radiance of an emitter that BSDF sampling at v hits, with its MIS weight, METHODS (3) and (4).
+/// Stores the radiance of an emitter that BSDF sampling at v hits, with its MIS weight, theory (3) and (4).
 /// @param pdf_w  of emitter sampling, per solid angle
 void add_hit(BaseVertex& v, Rgb radiance, float pdf_w) {
     v.hit_pdf_w = v.is_delta || is_black(radiance) ? 0 : pdf_w;

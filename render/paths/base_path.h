@@ -17,7 +17,7 @@ struct LightSample {
     glm::vec3 to_light; ///< unit, in the vertex's frame
     Rgb f_cos{0};
     float pdf_w = 0;   ///< of emitter sampling
-    float pdf_sum = 0; ///< of emitter and BSDF sampling together, METHODS (3)
+    float pdf_sum = 0; ///< of emitter and BSDF sampling together, theory (3)
     /// Radiance toward x_{i-1} with its MIS weight, f cos Le / pdf_sum; black: no light, or it is occluded.
     Rgb brings{0};
 };
@@ -48,7 +48,7 @@ struct BaseVertex {
 /// emitter sampling, the other by hitting an emitter.
 struct BasePath {
     Rgb very_direct{0}; ///< directly visible emission, straight or in mirrors
-    Rgb direct{0};      ///< sum over the light paths of two edges, METHODS (4)
+    Rgb direct{0};      ///< sum over the light paths of two edges, theory (4)
     Rgb indirect{0};    ///< sum over all longer light paths
     Rgb albedo{1};      ///< approximate, of x_1 or of the surface in mirrors; 1 if the path is empty
     Random random{0, 0, 0};
@@ -117,7 +117,7 @@ inline void complete_light(const Tracer& tracer, LightSample& drawn) {
     drawn.brings = drawn.f_cos * drawn.light.radiance / drawn.pdf_sum;
 }
 
-/// The light paths of a base path as slots, in the order of their ends, with c_k of each, METHODS (4). Every
+/// The light paths of a base path as slots, in the order of their ends, with c_k of each, theory (4). Every
 /// vertex has a slot for its light sample and a slot for the emitter that BSDF sampling hits. All light paths
 /// that continue beyond the join have the same r_m and c_m / c_k, so they are one slot, the tail, whose suffix is
 /// summed once. Vertex 0 is x_1.
@@ -134,7 +134,7 @@ public:
     int tail_slot() const { return hit_slot(join_) + 1; } ///< of all light paths beyond; requires has_join()
 
     /// Returns the vertex at which offset paths join the base path: the first j >= 1 such that the step from j-1
-    /// joins, METHODS (18), and the scatter at j is no delta. 0: there is none.
+    /// joins, theory (18), and the scatter at j is no delta. 0: there is none.
     int join() const { return join_; }
     bool has_join() const { return join_ > 0; }
 
@@ -142,7 +142,7 @@ public:
     int first_shared() const { return first_shared_; }
     int slot_count() const { return static_cast<int>(carried_.size()); }
 
-    /// Returns c_k of a slot, METHODS (4), divided by the survival of roulette on path length: radiance.
+    /// Returns c_k of a slot, theory (4), divided by the survival of roulette on path length: radiance.
     Rgb carried(int slot) const { return carried_[slot]; }
     /// Returns whether a slot, or any of the slots [first, end), carries light.
     bool is_alive(int slot) const { return slot <= last_alive_ && !is_black(carried(slot)); }
@@ -154,13 +154,13 @@ public:
     /// Returns the last slot that carries light; -1: none does.
     int last_alive() const { return last_alive_; }
 
-    /// Returns whether the step from a vertex is connectable, METHODS (17): offsets connect to its end for the
+    /// Returns whether the step from a vertex is connectable, theory (17): offsets connect to its end for the
     /// light that this emits. The step must exist, perhaps to infinity.
     bool step_is_connectable(int vertex) const { return steps_[vertex].is_connectable; }
-    /// Returns whether the step joins, METHODS (18): light from beyond its end uses the connection, too, unless
+    /// Returns whether the step joins, theory (18): light from beyond its end uses the connection, too, unless
     /// it arrives there by a delta scatter.
     bool step_joins(int vertex) const { return steps_[vertex].joins; }
-    /// Returns s_i of a vertex, METHODS (16), in scene units.
+    /// Returns s_i of a vertex, theory (16), in scene units.
     float apart(int vertex) const { return steps_[vertex].apart; }
 
 private:

@@ -68,7 +68,7 @@ std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base
     // On another side than the base's, the inverse shift would not find this half vector.
     if (!to_next || refracts != (to_next->z * offset.to_previous.z < 0))
         return {};
-    // METHODS (15).
+    // theory (15).
     const float jacobian = half_vector_jacobian(base.to_previous, base_to_next, half, base_index) /
                            half_vector_jacobian(offset.to_previous, *to_next, copied, offset_index);
     if (is_unrefracted)

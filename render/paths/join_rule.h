@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// Decides which edges shifts connect, METHODS (16) to (18). Base path and offset path each apply the rule to
+/// Decides which edges shifts connect, theory (16) to (18). Base path and offset path each apply the rule to
 /// their own edge. A shift fails where they disagree, because it would not be its own inverse.
 ///
 /// A connection keeps x_{i+1}, while the offset vertex y_i is at a distance of about s_i from x_i. s_i (`apart`)
@@ -22,16 +22,16 @@ public:
           pixels_(settings.shift == ShiftKind::reconnection ? 0 : settings.shift_distance),
           spread_(pixels_ * pixel_angle) {}
 
-    /// Returns s_1, METHODS (16), in scene units. @param pixel_width  BasePath::pixel_width
+    /// Returns s_1, theory (16), in scene units. @param pixel_width  BasePath::pixel_width
     float apart(float pixel_width) const { return pixels_ * pixel_width; }
-    /// Returns s_{i+1}, METHODS (16). @param before  s_i
+    /// Returns s_{i+1}, theory (16). @param before  s_i
     float apart(float before, float distance) const { return before + spread_ * distance; }
 
     /// Returns s_{i+1} / d, the angle in radians by which x_i's lobe turns against the edge. The distance may be
     /// infinite.
     float turn(float apart, float distance) const { return apart / distance + spread_; }
 
-    /// Returns whether a lobe is wide enough for the turn, METHODS (17). The limit of 1 radian lets wide lobes
+    /// Returns whether a lobe is wide enough for the turn, theory (17). The limit of 1 radian lets wide lobes
     /// connect edges of any length.
     bool covers(float roughness, float turn) const {
         return roughness > threshold_ && roughness >= roughness_a_turn * std::min(turn, 1.0f);
@@ -41,7 +41,7 @@ public:
     /// Returns whether covers() holds for no turn; the smallest one is spread_.
     bool covers_none(float roughness) const { return !covers(roughness, spread_); }
 
-    /// Returns whether light from beyond x_{i+1} can use the connection, METHODS (18). Close surfaces, as in a
+    /// Returns whether light from beyond x_{i+1} can use the connection, theory (18). Close surfaces, as in a
     /// corner, look very different from y_i than from x_i, so the edge must have the length s_i. The lobe of
     /// x_{i+1} must cover the turn at its end.
     /// @param roughness  of x_{i+1}
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    /// Angle of a lobe of roughness 1, with a part of its tail, in radians (TRIALS.md, "Which edges are joined").
+    /// Angle of a lobe of roughness 1, with a part of its tail, in radians (docs/decisions.md).
     static constexpr float lobe_of_roughness = 8;
     static constexpr float roughness_a_turn = 1 / lobe_of_roughness;
 

@@ -52,7 +52,7 @@ private:
 void evaluate(const Vertex& x, const Vec3Lanes& to_previous, glm::vec3 to_next, const LaneMask& lanes, int count,
               BsdfLanes& values);
 
-/// One light path x of pixel k, shifted to every pixel m of T, one lane for each pixel, METHODS (5) to (7):
+/// One light path x of pixel k, shifted to every pixel m of T, one lane for each pixel, theory (5) to (7):
 ///   ratio = r_m = P_m(y_m) |J| / P_k(x)   no unit; 0: the shift failed
 ///   value = c_m = f_m(y_m) |J| / P_k(x)   radiance, divided by the survival of roulette on path length
 /// y_m is the shifted path, P the sum of the densities of all strategies, and J the Jacobian of the shift
@@ -129,7 +129,7 @@ private:
 struct ConnectionLanes {
     LaneMask valid;       ///< the lane is requested, and the vertex lies on the right side of the point
     Vec3Lanes direction;  ///< unit, world, toward the point
-    FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area, METHODS (14)
+    FloatLanes geometry;  ///< |cos| at the point over the squared distance: solid angle over area, theory (14)
     FloatLanes distance2; ///< squared distance to the point; infinite for directions
 };
 

@@ -83,7 +83,7 @@ private:
     std::array<Slot, bins> slots_;
 };
 
-/// Distribution of directions at a place, METHODS (22).
+/// Distribution of directions at a place, theory (22).
 struct DirectionGuide {
     DirectionMap map; ///< g
     float share; ///< s, the fraction of directions drawn from g; the BSDF draws the others, so no light is missed
@@ -93,7 +93,7 @@ struct DirectionGuide {
 inline constexpr std::array<float, 4> share_candidates = {0, 0.25f, 0.5f, 0.75f};
 using ShareCandidates = std::array<float, share_candidates.size()>;
 
-/// Returns v^2 p_s / p_t of one sample for each t in share_candidates, METHODS (23). The mean over samples
+/// Returns v^2 p_s / p_t of one sample for each t in share_candidates, theory (23). The mean over samples
 /// estimates the second moment with share t.
 /// @param value   v: contribution of the sample over pdf_w
 /// @param pdf_w   p_s of its direction, per solid angle; or the probability of a delta scatter
@@ -132,7 +132,7 @@ struct GuidingGrid {
 };
 
 /// Path guiding [after Müller 2017]: directions from which earlier passes found light, by place. Rough vertices
-/// draw a share of their directions from it, METHODS (22). It is constant during a pass, so base and offset paths
+/// draw a share of their directions from it, theory (22). It is constant during a pass, so base and offset paths
 /// have the same pdf at the same place.
 class PathGuiding {
 public:

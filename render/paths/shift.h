@@ -23,7 +23,7 @@ struct CopiedScatter {
 };
 
 /// Copies the half vector of a reflection or refraction from base to offset [Kettunen 2015, 5.2], with the
-/// Jacobian of METHODS (15). Each vertex has its own index of refraction. Returns nothing if the offset has no
+/// Jacobian of theory (15). Each vertex has its own index of refraction. Returns nothing if the offset has no
 /// such direction on the same side as the base, or scatters no light there.
 /// @param base_to_next  unit, in the base vertex's frame; on the other side than to_previous for a refraction
 std::optional<CopiedScatter> copy_half_vector(const Vertex& base, glm::vec3 base_to_next, const Vertex& offset);
@@ -79,7 +79,7 @@ private:
 /// Outcomes of a shift, one lane for each pixel.
 using OutcomeLanes = LaneArray<ShiftOutcome>;
 
-/// Factors of r_m and c_m from the vertices up to the current one, METHODS (6) and (7). They are products of
+/// Factors of r_m and c_m from the vertices up to the current one, theory (6) and (7). They are products of
 /// quotients, as products of densities would underflow.
 struct PrefixLanes {
     FloatLanes ratio; ///< pdf of the offset times |J| over the pdf of the base, no unit
@@ -93,7 +93,7 @@ struct VertexConnection {
     ConnectionLanes sight; ///< of x_{i+1} from y_i
     BsdfLanes bsdf;        ///< at y_i, toward x_{i+1}
     LaneMask lit;          ///< eligible offsets that can receive light along the edge
-    LaneMask reached;      ///< lit offsets whose edge also joins, METHODS (18)
+    LaneMask reached;      ///< lit offsets whose edge also joins, theory (18)
     PrefixLanes prefix;    ///< through the edge, by BSDF sampling alone; ratio 0 unless reached
     Vec3Lanes to_previous; ///< unit, from x_{i+1} to y_i, in the frame of x_{i+1}
 };
@@ -106,11 +106,11 @@ struct LightConnection {
     BsdfLanes bsdf; ///< at y_i, toward the light
 };
 
-/// Shifts all light paths x of a base path to the other pixels of its set, METHODS (5), and computes r_m and c_m,
-/// METHODS (6) and (7). It walks along the base path: as long as an offset path cannot join it, the offset copies
+/// Shifts all light paths x of a base path to the other pixels of its set, theory (5), and computes r_m and c_m,
+/// theory (6) and (7). It walks along the base path: as long as an offset path cannot join it, the offset copies
 /// half vectors [Bauszat 2017, 3.1] or replays random numbers [Hua 2019, 3.1]. PathReuse does random replay of
 /// whole paths. The base path alone decides on every branch, so all lanes do the same arithmetic. The index i of
-/// x_i and y_i counts from 0 in this class: i = 0 is x_1 of METHODS.
+/// x_i and y_i counts from 0 in this class: i = 0 is x_1 of docs/theory.md.
 ///
 /// shift.cpp has the walk, shift_connections.cpp the connections of offsets to vertices and lights of the base
 /// path, and shift_bounces.cpp repeated scatters, whose rays are traced.
@@ -136,9 +136,9 @@ public:
 private:
     const BaseVertex& base(int i) const { return (*base_)[i]; }
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
-    /// Returns whether the base connects x_i to its light sample, METHODS (17).
+    /// Returns whether the base connects x_i to its light sample, theory (17).
     bool light_is_connectable(int i) const;
-    /// Returns whether an edge of y_i with this length is connectable, METHODS (17).
+    /// Returns whether an edge of y_i with this length is connectable, theory (17).
     bool is_connectable(int m, float distance) const {
         return rule_.covers(y_->roughness[m], rule_.turn(apart_[m], distance));
     }
@@ -209,7 +209,7 @@ private:
     PrimaryVertices* primary_ = nullptr; ///< y_1
     const OffsetVertices* y_ = nullptr;  ///< y_i
     LaneMask active_;                    ///< offsets that continue
-    FloatLanes apart_;                   ///< s_i of y_i, METHODS (16), scene units
+    FloatLanes apart_;                   ///< s_i of y_i, theory (16), scene units
     FloatLanes own_width_;               ///< pixel width at y_i (Tracer::width_beyond), scene units, or no_width
     PrefixLanes prefix_;
     FirstScatter* first_scatter_ = nullptr; ///< receives the repeated scatter at y_1; null: not needed

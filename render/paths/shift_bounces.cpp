@@ -152,7 +152,7 @@ void Shift::replay_light(int i, int m, EdgeGroup& edges) {
     edges.segments.to.set(m, way.to);
 }
 
-/// Ends a light path at `light` after a repeated scatter at `origin`, METHODS (6) and (7); fails if it is black.
+/// Ends a light path at `light` after a repeated scatter at `origin`, theory (6) and (7); fails if it is black.
 /// @param base_pdf_sum  pdf of the base's last step, summed over strategies
 void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                          float base_pdf_sum, bool is_delta) {

@@ -22,7 +22,7 @@ void Shift::record_first_scatter(int i, int first_slot, int end_slot, const Vec3
 }
 
 /// Connects the offsets to the light sample of x_i: the same point, or the same direction at infinity.
-/// @param connectable  the base's own edge is connectable, METHODS (17)
+/// @param connectable  the base's own edge is connectable, theory (17)
 void Shift::connect_light(int i, bool connectable) {
     const LightSample& x = base_->light(i);
     const int slot = light_->emitter_slot(i);
@@ -39,7 +39,7 @@ void Shift::connect_light(int i, bool connectable) {
     for (int m = 0; m < padded(y_->count()); ++m) {
         const float pdf_sum = c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m];
         // The point has the same pdf for all pixels, so J, the quotient of solid angles, is the inverse quotient
-        // of the pdfs per solid angle. `scale` is J / P_k, and the row is METHODS (6) and (7).
+        // of the pdfs per solid angle. `scale` is J / P_k, and the row is theory (6) and (7).
         const float scale = share / c.arriving.pdf_w[m];
         const float ratio = c.sight.valid[m] ? prefix_.ratio[m] * pdf_sum * scale : 0.0f;
         row.set(m, ratio,
@@ -126,7 +126,7 @@ const VertexConnection& Shift::connect_vertex(int i, EdgeGroup& edges) {
     y_->evaluate(c.sight.direction, c.sight.valid, c.bsdf);
     const float roughness = next.bsdf.roughness();
     for (int m = 0; m < padded(y_->count()); ++m) {
-        const float jacobian = c.sight.geometry[m] / x.next_geometry; // METHODS (14)
+        const float jacobian = c.sight.geometry[m] / x.next_geometry; // theory (14)
         const float scale = jacobian / x.pdf_w;
         const bool is_lit = (c.bsdf.f_cos.x[m] > 0) | (c.bsdf.f_cos.y[m] > 0) | (c.bsdf.f_cos.z[m] > 0);
         c.lit[m] = is_lit ? c.sight.valid[m] : 0;

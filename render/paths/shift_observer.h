@@ -12,10 +12,10 @@ struct OffsetStep {
     float pdf_w = 0; ///< of the next direction, per solid angle, or a probability after a delta scatter; at the
                      ///< end of a light path the sum over all strategies
     bool is_delta = false;
-    float jacobian = 1; ///< |J| of this step: solid angle at the offset over that at the base, METHODS (14) and
+    float jacobian = 1; ///< |J| of this step: solid angle at the offset over that at the base, theory (14) and
                         ///< (15); with random replay the quotient of the pdfs
-    float ratio = 0;    ///< r_m up to here, METHODS (6), no unit
-    Rgb value{0};       ///< c_m up to here, METHODS (7), without the light; at the end with it, radiance
+    float ratio = 0;    ///< r_m up to here, theory (6), no unit
+    Rgb value{0};       ///< c_m up to here, theory (7), without the light; at the end with it, radiance
 };
 
 /// Observer of the steps of shifts. Only the path inspector has one.

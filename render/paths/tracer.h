@@ -33,7 +33,7 @@ struct Vertex {
     glm::vec3 to_local(glm::vec3 world) const { return frame.to_local(world); }
     glm::vec3 to_world(glm::vec3 local) const { return frame.to_world(local); }
 
-    // The BSDF as paths sample it. Every pdf includes the guide, METHODS (22).
+    // The BSDF as paths sample it. Every pdf includes the guide, theory (22).
 
     /// Returns f cos and the pdf per solid angle. @param to_next  unit, in `frame`
     BsdfValue evaluate(glm::vec3 to_next) const {
@@ -53,7 +53,7 @@ struct Vertex {
     std::optional<BsdfSample> sample_from(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
         return guide ? sample_guided(to_viewer, lobe, u) : bsdf.sample(to_viewer, lobe, u);
     }
-    /// Returns p_s of METHODS (22) for a unit direction (world). The vertex must have a guide.
+    /// Returns p_s of theory (22) for a unit direction (world). The vertex must have a guide.
     float guided_pdf_w(float bsdf_pdf_w, glm::vec3 direction) const {
         return (1 - guide->share) * bsdf_pdf_w + guide->share * guide->map.pdf_w(direction);
     }

@@ -139,7 +139,7 @@ private:
     std::vector<std::unique_ptr<Worker>> all_;
 };
 
-/// Pre-pass: finds the edges of directly visible emitters, and the projections s^l of METHODS (30). Returns false
+/// Pre-pass: finds the edges of directly visible emitters, and the projections s^l of theory (30). Returns false
 /// if it was stopped; its results are then incomplete.
 bool Render::pre_pass(Workers& workers) {
     const Pass pass(*scene_, camera_, size_, settings_, learned_, 0);

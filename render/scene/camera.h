@@ -45,7 +45,7 @@ struct PixelWidth {
     float angle = 0; ///< angle of a pixel seen from the camera, radians; 0 if orthographic
     float least = 0; ///< width at the camera, scene units; 0 for a perspective
 
-    /// Returns w(L) of METHODS (16), the width at a distance from the camera; both in scene units.
+    /// Returns w(L) of theory (16), the width at a distance from the camera; both in scene units.
     float at(float distance) const { return angle * distance + least; }
 };
 

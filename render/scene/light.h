@@ -117,7 +117,7 @@ struct LightTriangle {
 };
 
 /// Derivatives of a sampled light point by the two numbers of Draw::emitter_position. The numbers that choose a
-/// light or an environment cell contribute no derivative. See METHODS, "Path differentials".
+/// light or an environment cell contribute no derivative. See docs/theory.md, "Path differentials".
 struct LightDerivatives {
     std::array<glm::vec3, 2> position{}; ///< derivatives of LightPoint::position; 0 if the light has only one
     float chance = 1; ///< probability of the choices; |position[0] x position[1]| / chance = 1 / LightPoint::pdf
@@ -209,7 +209,7 @@ private:
 /// Learns factors on the power of each light for emitter sampling, in the order of LightTable::powers(). Every
 /// light is sampled at the vertices of 144 paths from the camera, because power alone favours an environment
 /// around a large scene over lamps in it. Deterministic. Returns an empty vector for fewer than two lights with
-/// power, or if no light reaches the paths. See METHODS, "Which light is sampled".
+/// power, or if no light reaches the paths. See docs/theory.md, "Choice of lights".
 std::vector<double> learn_light_selection(const Scene& scene);
 
 } // namespace tessera

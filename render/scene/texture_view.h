@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// Width of a pixel at a surface point, for texture filtering. See METHODS, "Filtered textures".
+/// Width of a pixel at a surface point, for texture filtering. See docs/theory.md, "Texture filtering".
 ///
 /// Other pixels reuse the vertices of a base path beyond x_1. Their reflectance must not depend on the path that
 /// reaches them, or the weights of a sampling set would not sum to one. They therefore have the width of a pixel

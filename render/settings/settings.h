@@ -11,11 +11,11 @@ namespace tessera {
 inline constexpr int most_edges = 64; ///< limit of max_depth
 inline constexpr int most_tile = 16;  ///< limit of tile
 
-/// Camera positions from which a pass sees a pixel with several surfaces, if it reuses paths; n of METHODS (20).
-/// Three and four positions do not lower the error at equal time (TRIALS.md, "Several positions").
+/// Camera positions from which a pass sees a pixel with several surfaces, if it reuses paths; n of theory (20).
+/// Three and four positions do not lower the error at equal time (docs/decisions.md).
 inline constexpr int edge_positions = 2;
 /// Camera rays of a sample in a pixel with the edge of a directly visible emitter. With one ray, relMSE is larger
-/// (RESULTS.md, very_direct_rays=1,16).
+/// (docs/decisions.md).
 inline constexpr int edge_emitter_rays = 16;
 
 /// Footprint over which textures of reflectance and of directly visible emitters are averaged.
@@ -54,7 +54,7 @@ struct ShiftSettings {
     ShiftKind shift = ShiftKind::half_vector;
     /// Roughness above which a vertex is connectable [Kettunen 2015]. No option changes it.
     float shift_threshold = 0.001f;
-    /// Assumed distance of the pixels of a sampling set, in pixel widths: the 6 of METHODS (16).
+    /// Assumed distance of the pixels of a sampling set, in pixel widths: the 6 of theory (16).
     float shift_distance = 6;
 
     bool operator==(const ShiftSettings&) const = default;
@@ -85,8 +85,8 @@ enum class RouletteKind : std::uint8_t {
 /// Basis expansion: the quantity of which primal and gradients are measured [Fang 2024].
 enum class Basis : std::uint8_t {
     none,   ///< the radiance itself
-    albedo, ///< radiance divided by the albedo that the pixel sees, METHODS (27)
-    sh1,    ///< components of that by incident direction, METHODS (31): spherical harmonics up to degree 1
+    albedo, ///< radiance divided by the albedo that the pixel sees, theory (27)
+    sh1,    ///< components of that by incident direction, theory (31): spherical harmonics up to degree 1
     sh2,    ///< up to degree 2
     sh3,    ///< up to degree 3
     box     ///< nine boxes of equal solid angle

@@ -69,7 +69,7 @@ struct Bsdf {
         return glm::max(std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind), Rgb(0.01f));
     }
 
-    /// Returns eta of METHODS (15) for transmission: the index of refraction on the far side over that on the
+    /// Returns eta of theory (15) for transmission: the index of refraction on the far side over that on the
     /// side of to_previous. Transmitted radiance is divided by its square. 1: light passes without bending.
     float relative_index(glm::vec3 to_previous) const {
         return std::visit([&](const auto& b) { return relative_index_of(b, to_previous); }, kind);

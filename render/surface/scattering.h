@@ -83,7 +83,7 @@ inline glm::vec3 half_vector(glm::vec3 to_previous, glm::vec3 to_next, float eta
     return h.z < 0 ? -h : h;
 }
 
-/// Returns d_h / d_w of METHODS (15) [Walter 2007, eq. 14 and 17], where w is to_next; eta as in half_vector().
+/// Returns d_h / d_w of theory (15) [Walter 2007, eq. 14 and 17], where w is to_next; eta as in half_vector().
 inline float half_vector_jacobian(glm::vec3 to_previous, glm::vec3 to_next, glm::vec3 half, float eta) {
     const float sum = glm::dot(to_previous, half) + eta * glm::dot(to_next, half);
     return eta * eta * std::abs(glm::dot(to_next, half)) / (sum * sum);

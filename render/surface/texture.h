@@ -77,7 +77,7 @@ struct Texture {
 
     /// Returns the approximate mean over the footprint of `at`. Meant for parameters in which radiance is linear,
     /// such as reflectances. Equals evaluate() for a footprint that is a point or smaller than a texel, and for
-    /// meshes with attributes. See METHODS, "Filtered textures".
+    /// meshes with attributes. See docs/theory.md, "Texture filtering".
     Rgb filtered(const SurfacePoint& at) const;
 
     /// Returns the luminance; of a constant the red channel, because scalar constants are grey.

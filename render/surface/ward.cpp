@@ -21,7 +21,7 @@ BsdfValue Ward::evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
         const float cosines = to_previous.z * to_next.z;
         f = lobe / (4 * (variant == WardVariant::ward ? std::sqrt(cosines) : cosines));
     }
-    // The half vector's pdf is that of its slope over z^3, and METHODS (15) with eta = 1 converts it to to_next:
+    // The half vector's pdf is that of its slope over z^3, and theory (15) with eta = 1 converts it to to_next:
     // 4 times the cosine to the half vector is 2 |sum|.
     const float half_z = sum.z / std::sqrt(length2);
     const float lobe_pdf = lobe / (half_z * half_z * half_z * 2 * std::sqrt(length2));

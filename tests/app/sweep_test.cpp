@@ -89,7 +89,7 @@ TEST_F(SweepCommand, WritesTablesAndAChart) {
                 ElementsAre("box", "gpr", "weighted", "3", "2 spp", "2", "2"));
 
     const json all = results();
-    EXPECT_EQ(all["version"], "0.1.0");
+    EXPECT_EQ(all["version"], "0.2.0");
     EXPECT_EQ(all["machine"]["threads"], 1);
     EXPECT_EQ(all["interrupted"], false);
     ASSERT_EQ(all["results"].size(), 2u);
@@ -261,7 +261,7 @@ TEST_F(SweepCommand, ReusesFinishedJobs) {
     EXPECT_EQ(results()["results"][1]["runs"], first[1]["runs"]) << "a job of two methods reuses the finished one";
     fs::remove_all(folder() / "out");
     ASSERT_EQ(run(folder(), sweep).exit_code, 0);
-    const std::string mine = "\"program\":\"0.1.0 ", other = "\"program\":\"0.0.9 ";
+    const std::string mine = "\"program\":\"0.2.0 ", other = "\"program\":\"0.0.9 ";
     for (const fs::path& file : job_files()) { // as another build would write it
         std::string lines = text(file);
         lines.replace(lines.find(mine), mine.size(), other);

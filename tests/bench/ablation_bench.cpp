@@ -1,5 +1,5 @@
-// ablation_bench CELLS [VARIANT...]: measures what the stages and constants of `guided` gain (METHODS,
-// "Ablation").
+// ablation_bench CELLS [VARIANT...]: measures what the stages and constants of `guided` gain
+// (docs/reconstruction.md, "Ablation").
 //
 // Each line of the file CELLS names a cell: NAME SAMPLES REFERENCE1 REFERENCE2. store_samples writes these files.
 // The samples and the two references need three different seeds. A variant is

@@ -1,6 +1,6 @@
 // footprint_bench [CHART.svg [SAMPLES [SCENE.xml...]]]: compares the footprints of base paths.
 //
-// For each vertex, prints the area of the scalar form, METHODS (25) and (26), and that of the parallelogram of two
+// For each vertex, prints the area of the scalar form, theory (25) and (26), and that of the parallelogram of two
 // vectors. Both are relative to the area of the Minkowski sum of all differential vectors. Also prints the cost of
 // computing them, and writes a chart of the scalar form. SAMPLES is the number of samples per pixel (16). The
 // default scenes are three of ../shared/scenes, if they exist, and assets/stability/glossy.xml.

@@ -4,7 +4,7 @@
 // SPP it prints CPU seconds, and the mean over the pixels of the primal's relative variance across seeds. It also
 // prints the ratio of variance x CPU time without and with guiding, of all pixels and without the worst 0.1 %. The
 // last figure is the fraction of the second moment that guiding leaves, as the learning passes estimate it
-// (METHODS (23)). "auto" measures --path-guiding auto instead of on.
+// (theory (23)). "auto" measures --path-guiding auto instead of on.
 #include "render/load/mitsuba_xml.h"
 #include "render/run/render.h"
 #include "render/run/thread_pool.h"

@@ -1,7 +1,7 @@
-// warm_bench SCENE.xml REFERENCE.exr|WIDTHxHEIGHT [SAMPLES]: compares incremental reconstructions (METHODS,
-// "Incremental reconstruction") with full ones, after each pass of G-PR with depth 8 on all hardware threads.
-// Prints wall time, which other work on the machine affects, and the errors to a reference. A reference also gives
-// the size.
+// warm_bench SCENE.xml REFERENCE.exr|WIDTHxHEIGHT [SAMPLES]: compares incremental reconstructions
+// (docs/reconstruction.md, "Incremental reconstruction") with full ones, after each pass of G-PR with depth 8 on
+// all hardware threads. Prints wall time, which other work on the machine affects, and the errors to a reference.
+// A reference also gives the size.
 
 #include "recon/metrics/metrics.h"
 #include "recon/metrics/seen_error.h"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the recipes of CLUSTER.md exactly as they are printed there.
+"""Runs the recipes of docs/cluster.md exactly as they are printed there.
 
     tests/cluster/recipes.py PROGRAM
 
@@ -28,7 +28,7 @@ TIMES = {"cpu_seconds", "cpu_seconds_deviation", "reconstruction_cpu_seconds", "
 def recipes():
     """Returns pairs of a heading and a block of commands below it."""
     heading, blocks = "", []
-    for match in re.finditer(r"^## ([^\n]*)$|^```sh\n(.*?)^```$", (ROOT / "CLUSTER.md").read_text(), re.M | re.S):
+    for match in re.finditer(r"^## ([^\n]*)$|^```sh\n(.*?)^```$", (ROOT / "docs/cluster.md").read_text(), re.M | re.S):
         if match[1]:
             heading = match[1]
         else:

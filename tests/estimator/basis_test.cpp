@@ -25,7 +25,7 @@ const TestScene& scene_named(const std::string& name) {
 }
 
 /// Two passes are too few for estimators that are only consistent. In these scenes albedo and radiance are
-/// correlated within pixels, so the covariance of METHODS (28) matters.
+/// correlated within pixels, so the covariance of theory (28) matters.
 TEST(Basis, IsUnbiasedInTheMeanOfManyRendersOfTwoPasses) {
     constexpr glm::ivec2 size(4, 4);
     constexpr int renders = 20'000;
@@ -71,8 +71,8 @@ double mean_luminance(const RgbImage& image) {
     return sum / static_cast<double>(image.size());
 }
 
-/// The factor k of METHODS (47) removes a part of the covariance at few samples. The mean of the samples shows
-/// that this changes the brightness of the picture by little.
+/// The factor k of reconstruction (47) removes a part of the covariance at few samples. The mean of the samples
+/// shows that this changes the brightness of the picture by little.
 TEST(Basis, KeepsTheEnergyWithTwoPasses) {
     for (const char* name : {"edges", "leaves"}) {
         const std::string file = std::string(TESSERA_SOURCE_DIR) + "/assets/stability/" + name + ".xml";

@@ -1,5 +1,5 @@
 // Components of a basis [Fang 2024]: they equal those of the naive path tracer for all methods and shifts, and
-// their sum loses nothing, METHODS (30) and (31).
+// their sum loses nothing, theory (30) and (31).
 #include "recon/picture/reconstruct.h"
 #include "render/estimator/basis.h"
 #include "render/run/render.h"
@@ -267,7 +267,7 @@ TEST(Parts, ProjectionsOfDiffusePixelsHaveALengthOfAboutOne) {
     }
 }
 
-/// METHODS (31): the sum of components times projections is the coefficient of each sample, and so of the means.
+/// theory (31): the sum of components times projections is the coefficient of each sample, and so of the means.
 TEST(Parts, SumTimesProjectionsIsTheCoefficient) {
     constexpr glm::ivec2 size(9, 7);
     for (const TestScene& t : all_test_scenes())

@@ -97,8 +97,8 @@ TEST(Film, CountsTheBasePathsOfMeans) {
     EXPECT_TRUE(Film(2, 1, {}).reuse_maps(2).paths.empty());
 }
 
-/// Half differences have expectation 0 and the variance of the mean, for odd numbers of passes, too, METHODS (41).
-/// The film keeps the weight that the brightest sample has in them.
+/// Half differences have expectation 0 and the variance of the mean, for odd numbers of passes, too,
+/// reconstruction (41). The film keeps the weight that the brightest sample has in them.
 TEST(Film, HalfDifferencesHaveTheNoiseOfTheMean) {
     const float values[] = {3, 1, 2, 8, 6}, signs[] = {1, -1, 1, -1, 1}; // halves of passes 2-3, 4-7, ...
     for (const int passes : {2, 3, 4, 5}) {

@@ -1,4 +1,4 @@
-// Half-vector copies between vertices: the copy inverts itself, and its Jacobian is the derivative, METHODS (15).
+// Half-vector copies between vertices: the copy inverts itself, and its Jacobian is the derivative, theory (15).
 #include "render/paths/shift.h"
 #include "tests/surface/bsdf_cases.h"
 

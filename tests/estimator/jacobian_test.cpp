@@ -156,7 +156,7 @@ void for_pairs(const Tracer& tracer, std::uint64_t seed, glm::vec2 apart, Visit&
     }
 }
 
-/// In a diffuse room the ratio of METHODS (6) is pdf_w(y_1) / pdf_w(x_1) times the Jacobian of METHODS (14).
+/// In a diffuse room the ratio of theory (6) is pdf_w(y_1) / pdf_w(x_1) times the Jacobian of theory (14).
 TEST(Jacobian, OfReconnectionEqualsFiniteDifferences) {
     const auto scene = Room().build();
     Counters counters;
@@ -196,7 +196,7 @@ TEST(Jacobian, OfReconnectionEqualsFiniteDifferences) {
     EXPECT_GT(count, 200);
 }
 
-/// For a point on a light, the densities P of METHODS (6) are sums over emitter sampling and BSDF sampling.
+/// For a point on a light, the densities P of theory (6) are sums over emitter sampling and BSDF sampling.
 TEST(Jacobian, OfLightSamplesEqualsFiniteDifferences) {
     const auto scene = Room().build();
     Counters counters;

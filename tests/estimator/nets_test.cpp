@@ -70,7 +70,7 @@ int count_stratified(const Scene& scene, const RenderSettings& s, const LearnedR
             strata[i].insert(found[i]);
     }
     return static_cast<int>(std::ranges::count_if(
-        strata, [&](const std::set<int>& s) { return static_cast<int>(s.size()) == to - from; }));
+        strata, [&](const std::set<int>& stratum) { return static_cast<int>(stratum.size()) == to - from; }));
 }
 
 /// Returns the mean of renders with different seeds and so many passes each.

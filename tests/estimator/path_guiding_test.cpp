@@ -1,4 +1,4 @@
-// Guided directions: their distribution, their pdf, and METHODS (22) and (23).
+// Guided directions: their distribution, their pdf, and theory (22) and (23).
 #include "render/paths/base_path.h"
 #include "render/paths/offsets.h"
 #include "render/paths/path_guiding.h"

@@ -150,7 +150,7 @@ TEST(Positions, ReduceTheNoiseOfMixedPixels) {
     }
 }
 
-/// METHODS (20): the factors g make the counts of base paths equal, however many pixels of the set have their turn
+/// theory (20): the factors g make the counts of base paths equal, however many pixels of the set have their turn
 /// at a position.
 TEST(Positions, CountEqualNumbersOfBasePaths) {
     const auto scene = pole_before_a_wall();

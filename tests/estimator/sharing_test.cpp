@@ -1,4 +1,4 @@
-// Conditions of the balance heuristic, METHODS (12): the weights of a light path and its contributions to all
+// Conditions of the balance heuristic, theory (12): the weights of a light path and its contributions to all
 // pixels do not depend on the pixel of the sampling set that made it.
 //
 // A light path of pixel k is shifted to pixel m, as a path that m could have traced itself

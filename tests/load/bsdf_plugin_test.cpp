@@ -129,8 +129,8 @@ TEST(BsdfPlugins, ReportsAdaptersThatABlendLeavesOut) {
     const Read r = read(
         around("blendbsdf", around("mask", diffuse) + around("twosided", around("bumpmap", check + diffuse))));
     EXPECT_EQ(r.notes, "'twosided' around some of the materials in 'blendbsdf' is left out\n"
-                       "the mask inside 'blendbsdf' is left out\n"
-                       "the bump or normal map inside 'blendbsdf' is left out\n");
+                       "the bump or normal map inside 'blendbsdf' is left out\n"
+                       "the mask inside 'blendbsdf' is left out\n");
     EXPECT_FALSE(r.material.two_sided);
     EXPECT_EQ(read(around("twosided", around("blendbsdf", diffuse + glass))).notes,
               "'twosided' has no effect on a transparent material\n");

@@ -1,5 +1,5 @@
-// Radiance from a reconstructed coefficient: recombine(), METHODS (29), is unbiased; remodulate(), METHODS (45),
-// has less noise.
+// Radiance from a reconstructed coefficient: recombine(), theory (29), is unbiased; remodulate(), reconstruction
+// (45), has less noise.
 #include "recon/guided/demodulation.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -127,8 +127,8 @@ double mean_of(const RgbImage& image) {
     return sum / (3 * static_cast<double>(image.size()));
 }
 
-/// If albedo and coefficient are independent, rho of METHODS (45) is noise, and at most a tenth of it stays. If
-/// they are correlated, the covariance is added at many samples.
+/// If albedo and coefficient are independent, rho of reconstruction (45) is noise, and at most a tenth of it
+/// stays. If they are correlated, the covariance is added at many samples.
 TEST(Remodulation, AddsACovarianceThatStandsOutFromNoise) {
     RgbImage independent(width, height, Rgb(1)), many = independent;
     remodulate(sampled(16, 0, 1), GuidedParameters(), independent, serial_for);
@@ -189,7 +189,8 @@ TEST(Remodulation, TakesNoSlopeFromPixelsWhoseAlbedoHardlyVaries) {
     }
 }
 
-/// METHODS (47) takes means of roots, so that one noisy pixel does not remove the covariance of its neighbours.
+/// reconstruction (47) takes means of roots, so that one noisy pixel does not remove the covariance of its
+/// neighbours.
 TEST(Remodulation, KeepsTheCovarianceBesideANoisyPixel) {
     RgbImage image(width, height, Rgb(1)), with_noise = image;
     GradientImages images = sampled(400, 0.9f, 5);

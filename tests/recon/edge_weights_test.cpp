@@ -1,4 +1,4 @@
-// Weights of gradients, METHODS (38) to (40).
+// Weights of gradients, reconstruction (38) to (40).
 #include "recon/solvers/edge_weights.h"
 #include "tests/recon/test_images.h"
 
@@ -43,7 +43,7 @@ TEST(EdgeWeights, FallWithTheVarianceOfTheGradient) {
 }
 
 /// A dark groove between bright boards, with noise in proportion to brightness. The groove must not take over the
-/// noise of the boards, so variances are averaged relative to brightness, METHODS (40).
+/// noise of the boards, so variances are averaged relative to brightness, reconstruction (40).
 TEST(EdgeWeights, AreSmallAtADarkGroove) {
     constexpr int groove = 10;
     const auto light = [](int y) { return y == groove ? 0.03f : 1.0f; };

@@ -1,5 +1,5 @@
-// First-order regression on features, METHODS (53) to (55): its definition, and the noise that it removes at
-// edges.
+// First-order regression on features, reconstruction (53) to (55): its definition, and the noise that it removes
+// at edges.
 #include "recon/guided/feature_regression.h"
 #include "tests/recon/test_images.h"
 

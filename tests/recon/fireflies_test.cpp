@@ -1,4 +1,5 @@
-// Fireflies: which samples are clamped, METHODS (56) to (58), what that changes, and that no energy is lost.
+// Fireflies: which samples are clamped, reconstruction (56) to (58), what that changes, and that no energy is
+// lost.
 #include "recon/guided/fireflies.h"
 #include "recon/picture/reconstruct.h"
 #include "tests/recon/test_images.h"
@@ -130,8 +131,8 @@ TEST(Fireflies, ReduceTheUnexplainedVarianceToThatOfClampedSamples) {
     EXPECT_EQ(result.demodulation.unexplained_variance(3, 3), images.primal_variance(3, 3));
 }
 
-/// With demodulation, the clamped radiance is the albedo of the sample times its clamped coefficient, METHODS
-/// (58).
+/// With demodulation, the clamped radiance is the albedo of the sample times its clamped coefficient,
+/// reconstruction (58).
 TEST(Fireflies, AreClampedInRadianceWithDemodulation) {
     GradientImages images = with_firefly_tile().images();
     demodulate(images);

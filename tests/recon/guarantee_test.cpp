@@ -1,4 +1,4 @@
-// The table of guarantees, from which help, tooltips and METHODS.md take their claims.
+// The table of guarantees, from which help, tooltips and docs/reconstruction.md take their claims.
 #include "recon/norm.h"
 
 #include <array>
@@ -39,9 +39,9 @@ TEST(Guarantee, OfADenoiserIsNotUnbiased) {
         }
 }
 
-/// Returns the rows of the table in METHODS.md: name, guarantee and reason.
+/// Returns the rows of the table in docs/reconstruction.md: name, guarantee and reason.
 std::vector<std::array<std::string, 3>> documented_rows() {
-    std::ifstream file(TESSERA_SOURCE_DIR "/METHODS.md");
+    std::ifstream file(TESSERA_SOURCE_DIR "/docs/reconstruction.md");
     std::vector<std::array<std::string, 3>> rows;
     bool is_inside = false;
     for (std::string line; std::getline(file, line);) {

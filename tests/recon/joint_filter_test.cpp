@@ -90,7 +90,7 @@ TEST(JointFilter, IsConsistent) {
 }
 
 /// A chequered pattern that no feature shows, hardly stronger than the noise. Pairs of pixels do not separate the
-/// two; means over squares of pairs, METHODS (48), do.
+/// two; means over squares of pairs, reconstruction (48), do.
 TEST(JointFilter, KeepsPatternsThatNoiseHidesInPairsOfPixels) {
     RgbImage truth(width, height);
     for (int y = 0; y < height; ++y)

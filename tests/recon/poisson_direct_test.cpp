@@ -1,4 +1,4 @@
-// The direct solver of `l2`, METHODS (33), against a sparse solver.
+// The direct solver of `l2`, reconstruction (33), against a sparse solver.
 #include "recon/solvers/poisson_direct.h"
 #include "tests/recon/sparse_solver.h"
 #include "tests/recon/test_images.h"

@@ -1,4 +1,4 @@
-// The solver of `l1` and `mixed`, METHODS (34) and (35).
+// The solver of `l1` and `mixed`, reconstruction (34) and (35).
 #include "recon/solvers/poisson_l1.h"
 #include "tests/recon/test_images.h"
 

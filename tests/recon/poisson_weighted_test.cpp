@@ -1,4 +1,4 @@
-// The solver of `weighted`, METHODS (37).
+// The solver of `weighted`, reconstruction (37).
 #include "recon/solvers/edge_weights.h"
 #include "recon/solvers/poisson_weighted.h"
 #include "tests/recon/sparse_solver.h"

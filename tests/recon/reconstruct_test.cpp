@@ -83,7 +83,7 @@ TEST(Reconstruct, WithoutVariancesMistrustsOutliersOfGradients) {
         images.primal.data()[i] += noise.data()[i];
     images.primal_variance = Image<float>(40, 30, 1.0f); // a variance of the primal alone is not used
     const auto image = [&](Norm norm, float alpha) { return reconstruct(images, {norm, alpha}).image; };
-    const float alpha = 0.2f / GuidedParameters().alpha_scale; // METHODS (39) gives a = 0.2
+    const float alpha = 0.2f / GuidedParameters().alpha_scale; // reconstruction (39) gives a = 0.2
     EXPECT_LE(relative_difference(image(Norm::weighted, alpha), image(Norm::l2, 0.2f)), 1e-2);
     for (std::size_t i = 0; i < noise.size(); i += 97)
         images.dx.data()[i] += 5.0f;

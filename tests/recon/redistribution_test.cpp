@@ -1,4 +1,4 @@
-// Redistribution of clamped energy, METHODS (59) and (60): which pixels get it, and that its sum stays.
+// Redistribution of clamped energy, reconstruction (59) and (60): which pixels get it, and that its sum stays.
 #include "recon/guided/redistribution.h"
 #include "tests/recon/test_images.h"
 

@@ -1,4 +1,4 @@
-// Trust in the difference between a picture and a smoother one, METHODS (52).
+// Trust in the difference between a picture and a smoother one, reconstruction (52).
 #include "recon/guided/shrinkage.h"
 #include "tests/recon/test_images.h"
 

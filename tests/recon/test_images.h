@@ -217,7 +217,7 @@ inline void demodulate(GradientImages& images, std::uint32_t seed = 7) {
     images.features.albedo = albedo;
 }
 
-/// Returns the local mean brightness of a picture over its albedo, METHODS (42).
+/// Returns the local mean brightness of a picture over its albedo, reconstruction (42).
 inline Image<float> local_brightness_of(const RgbImage& picture, const FeatureImages& features,
                                         const GuidedParameters& parameters = {},
                                         const ParallelFor& parallel_for = serial_for) {

@@ -1,4 +1,4 @@
-// Uniform control variates, METHODS (36).
+// Uniform control variates, reconstruction (36).
 #include "recon/picture/reconstruct.h"
 #include "recon/solvers/poisson_direct.h"
 #include "tests/recon/test_images.h"
