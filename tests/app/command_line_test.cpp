@@ -46,7 +46,7 @@ protected:
 
 TEST_F(CommandLine, HelpOfScriptsSeparatesColumns) {
     const std::string help = run(folder_, "view --help").output;
-    EXPECT_THAT(help, testing::HasSubstr("wait scene | spp N | seconds S | reference until it is loaded"));
+    EXPECT_THAT(help, testing::HasSubstr("wait scene | spp N | seconds S | reference waits for the scene"));
 }
 
 TEST_F(CommandLine, HelpGroupsOptionsWithEverydayOnesFirst) {
@@ -323,7 +323,7 @@ TEST_F(CommandLine, ViewWithoutADisplayWritesAPicture) {
 TEST_F(CommandLine, InspectWithoutADisplayIsAnError) {
     const Outcome o = run(folder_, "view box.xml --size 48x32 --inspect 1,2,0 --seconds 0.2");
     EXPECT_EQ(o.exit_code, 2) << o.output;
-    EXPECT_NE(o.output.find("no display to open --inspect 1,2,0"), std::string::npos) << o.output;
+    EXPECT_NE(o.output.find("There is no display for --inspect 1,2,0"), std::string::npos) << o.output;
     EXPECT_FALSE(fs::exists(folder_ / "contact-sheet.png"));
 }
 

@@ -184,7 +184,7 @@ TEST_F(ReferenceShards, AreRejectedIfOfAnotherVersion) {
     header.insert(header.find(version) + version.size(), "0.0.9, not ");
     std::vector<std::byte> state = checkpoint.state;
     write_checkpoint(two, header, {std::span(state)});
-    EXPECT_THAT(refusal({one, two}), HasSubstr("the one is of version \"0.0.9, not "));
+    EXPECT_THAT(refusal({one, two}), HasSubstr("the first is of version \"0.0.9, not "));
 }
 
 TEST_F(ReferenceShards, AreAtMostAsManyAsPasses) {

@@ -144,7 +144,7 @@ TEST_F(InvalidSampleReports, ViewerOptionsAreChecked) {
         {"--inspect 7,2,0,9", "must be X,Y,PASS"},
         {"--inspect 0,0,4294967296", "must be X,Y,PASS"},
         {"--inspect 7,2,0 --size 9000x16", "from 1 to 8192"},
-        {"-m gpr,pt,pr,gpt,pt", "up to 4 panes"},
+        {"-m gpr,pt,pr,gpt,pt", "at most 4 methods"},
         {"-m bdpt", "bdpt"},
         {"-m gpr --panes 2", "excludes"},
     };
