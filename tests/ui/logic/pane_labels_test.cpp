@@ -47,8 +47,8 @@ TEST(PaneLabels, ShowTheDifferenceOfPanesOfOneMethod) {
 TEST(PaneLabels, AreUsedByBadgesAndStatus) {
     ViewerState state = panes_of({Method::gpr, Method::gpr});
     state.panes[1].settings.reconstruction.norm = Norm::l1;
-    EXPECT_EQ(label_of(Showing{0}, state), "1  G-PR, guided  Reconstruction");
-    EXPECT_EQ(label_of(Showing{1}, state), "2  G-PR, L1  Reconstruction");
+    EXPECT_EQ(label_of(Showing{0}, state), "1  G-PR, guided  Result");
+    EXPECT_EQ(label_of(Showing{1}, state), "2  G-PR, L1  Result");
     EXPECT_EQ(label_of(Showing{0, 1}, state), "1  G-PR, guided  minus  2  G-PR, L1");
     EXPECT_EQ(status_text(state, 1).rfind("G-PR, L1   ", 0), 0u) << status_text(state, 1);
 }

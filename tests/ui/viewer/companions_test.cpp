@@ -135,7 +135,7 @@ TEST_F(CompanionsTest, AReferenceOfAnotherSceneIsLoadedWithAMessage) {
     };
     const auto said = [&] {
         return std::count_if(state().messages.begin(), state().messages.end(), [](const Message& m) {
-            return m.text.find("something else than the panes, in its lights") != m.text.npos;
+            return m.text.find("The reference and the panes differ in their lights") != m.text.npos;
         });
     };
     SceneChecksums sums = checksums_of(state().scene->description(), state().camera.camera());

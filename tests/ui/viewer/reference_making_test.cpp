@@ -94,7 +94,7 @@ TEST_F(MakeReference, ContinuesAfterACancellation) {
     ASSERT_TRUE(fs::exists(reference_checkpoint(file(h))));
     EXPECT_EQ(h.state().messages.back().kind, Message::Kind::note);
     const std::string text = h.state().messages.back().text;
-    const int spp = std::stoi(text.substr(text.find(" has ") + 5));
+    const int spp = std::stoi(text.substr(text.find(" at ") + 4));
     ASSERT_GE(spp, 4);
 
     h.frames(2);
