@@ -2,7 +2,6 @@
 #include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
 #include "app/cli/terminal.h"
-#include "app/cli/version.h"
 #include "app/commands/commands.h"
 #include "app/experiment/experiment.h"
 #include "render/io/files.h"
@@ -66,6 +65,13 @@ int render(const CLI::App& command, const Words& words, RenderOptions options) {
     options.layers.settings = words.reconstruction;
     options.threads = words.threads;
     return run_render(options);
+}
+
+/// Returns the version and the commit of the source, such as "0.2.0 (commit 1a2b3c4)". The commit ends with
+/// "-dirty" if the source had changes when the build was configured. It is left out outside of a git checkout.
+std::string version_text() {
+    const std::string commit = TESSERA_COMMIT;
+    return TESSERA_VERSION + (commit.empty() ? "" : " (commit " + commit + ")");
 }
 
 /// Returns the default reconstruction of each method, such as "pt none, gpr guided".

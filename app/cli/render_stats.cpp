@@ -50,7 +50,7 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
     return command + fmt::format(" --inspect {},{},{}", sample.x, sample.y, sample.pass);
 }
 
-void warn_of_refused(const SceneSource& source, const Render& render) {
+void warn_of_invalid_samples(const SceneSource& source, const Render& render) {
     const auto first = render.counters().first_invalid.list();
     if (first.empty())
         return;
@@ -62,7 +62,7 @@ void warn_of_refused(const SceneSource& source, const Render& render) {
                    : "This command opens it in the viewer:\n    " + command);
 }
 
-nlohmann::json refused_json(const SceneSource& source, const Render& render) {
+nlohmann::json invalid_samples_json(const SceneSource& source, const Render& render) {
     nlohmann::json list = nlohmann::json::array();
     for (const InvalidSample& sample : render.counters().first_invalid.list()) {
         list.push_back(
@@ -94,7 +94,7 @@ json counters_json(const Counters& c) {
               {"reused_share", static_cast<double>(c.reused_paths) / set_paths},
               {"skipped_share", static_cast<double>(c.skipped_paths) / set_paths}}},
             {"shifts", {{"attempts", c.shift_attempts()}, {"outcomes", outcomes}}},
-            {"refused_samples", c.refused_samples}};
+            {"refused_samples", c.invalid_samples}};
 }
 
 void print_redistributed(const std::filesystem::path& output,

@@ -22,11 +22,11 @@ namespace tessera {
 std::string inspect_command(const SceneSource& source, const Render& render, const InvalidSample& sample);
 
 /// Prints to stderr the number of invalid samples, the first one, and how to open it; nothing if there are none.
-void warn_of_refused(const SceneSource& source, const Render& render);
+void warn_of_invalid_samples(const SceneSource& source, const Render& render);
 
 /// Returns an array of the first invalid samples: pixel, pass, seed and, if the viewer supports the size, the
 /// command that opens it.
-nlohmann::json refused_json(const SceneSource& source, const Render& render);
+nlohmann::json invalid_samples_json(const SceneSource& source, const Render& render);
 
 /// Prints to stderr which fraction of the radiance each reconstruction redistributed from fireflies; nothing if
 /// none did.

@@ -121,7 +121,7 @@ int run_render(const RenderOptions& options) {
     ask_for_picture(wanted, pool.size());
     Render render(opened.scene, opened.scene->camera(), wanted.size, wanted.settings);
     with_memory_for("the render", [&] { render_passes(options, wanted, render, pool); });
-    warn_of_refused(options.scene, render);
+    warn_of_invalid_samples(options.scene, render);
 
     std::vector<ReconstructionStats> recon;
     std::string failure;
@@ -135,7 +135,7 @@ int run_render(const RenderOptions& options) {
     const bool is_finite = warn_of_bad_pixels(file);
     if (!options.stats.empty()) {
         nlohmann::json stats = stats_json(settings, opened, render, pool.size(), recon, interrupted());
-        stats["first_refused"] = refused_json(options.scene, render);
+        stats["first_refused"] = invalid_samples_json(options.scene, render);
         write_text(options.stats, to_text(stats, 2) + "\n");
     }
     fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),

@@ -184,7 +184,7 @@ std::vector<Experiment::SharedRun> Experiment::runs_of(const Job& job,
 /// picture.
 std::string Experiment::finish(const Job& job, const SharedRun& shared) {
     const MeasuredScene& scene = scenes_[job.scene];
-    warn_of_refused(scene.source(), shared.run->render());
+    warn_of_invalid_samples(scene.source(), shared.run->render());
     std::string lines;
     for (std::size_t i = 0; i < shared.setups.size(); ++i) {
         const Setup& setup = setups_[shared.setups[i]];

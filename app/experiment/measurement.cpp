@@ -82,7 +82,7 @@ nlohmann::ordered_json to_json(const Counters& c) {
             {"skipped_paths", c.skipped_paths},
             {"reused_paths", c.reused_paths},
             {"shifts", c.shifts},
-            {"refused_samples", c.refused_samples}};
+            {"refused_samples", c.invalid_samples}};
 }
 
 Counters counters_from_json(const nlohmann::json& json) {
@@ -94,7 +94,7 @@ Counters counters_from_json(const nlohmann::json& json) {
     json.at("skipped_paths").get_to(c.skipped_paths);
     json.at("reused_paths").get_to(c.reused_paths);
     json.at("shifts").get_to(c.shifts);
-    json.at("refused_samples").get_to(c.refused_samples);
+    json.at("refused_samples").get_to(c.invalid_samples);
     return c;
 }
 

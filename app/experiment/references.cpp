@@ -33,7 +33,7 @@ bool complete(ReferenceRender& render, const std::filesystem::path& output, cons
         tell(render);
     }
     for (const Render& half : render.halves())
-        warn_of_refused(source, half);
+        warn_of_invalid_samples(source, half);
     return true;
 }
 

@@ -188,7 +188,7 @@ Findings find(const Result& result, const Result& path_tracing, const ReferenceN
     Numbers errors, edges, tone_mapped, tenfold, halo_energies, halo_peaks;
     for (const Measurement& run : result.runs) {
         f.bad_pixels += run.artefacts->bad_pixels;
-        f.refused += run.counters.refused_samples;
+        f.refused += run.counters.invalid_samples;
         f.counters += run.counters;
         errors.push_back(run.artefacts->error.relative_mse);
         tone_mapped.push_back(run.artefacts->tone_mapped);

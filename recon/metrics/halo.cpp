@@ -104,8 +104,8 @@ std::optional<Halo> measure_halo(const GradientImages& images, const Reconstruct
     const int width = images.primal.width();
     const int reach = static_cast<int>(std::lround(images.patch)) + (images.has_gradients() ? 1 : 0);
     Halo halo{{static_cast<int>(brightest) % width, static_cast<int>(brightest) / width}};
-    const PixelRect square{halo.spike.x - reach + 1, halo.spike.y - reach + 1, halo.spike.x + reach,
-                           halo.spike.y + reach};
+    const PixelRect square{halo.firefly.x - reach + 1, halo.firefly.y - reach + 1, halo.firefly.x + reach,
+                           halo.firefly.y + reach};
     if (square.clipped({width, images.primal.height()}) == PixelRect{0, 0, width, images.primal.height()})
         return {};
     const GradientImages without = without_brightest(images, square);

@@ -11,7 +11,7 @@ namespace tessera {
 /// Effect of the strongest firefly on the picture outside the pixels that found it, such as a ring or a blob that
 /// a solver makes around them.
 struct Halo {
-    glm::ivec2 spike{0}; ///< pixel whose brightest sample moves its mean most
+    glm::ivec2 firefly{0}; ///< pixel whose brightest sample moves its mean most
     double energy = 0; ///< sum of luminance changes in the rest of the picture, over the luminance of the firefly
     double peak = 0;   ///< largest change, over the sum of that pixel's luminance and 1 % of the picture's mean
 };

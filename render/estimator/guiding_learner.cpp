@@ -67,7 +67,7 @@ constexpr float prior_samples = 4;  // weight of the prior, in samples
 // Share of a guide without samples that estimate it; and the least relative reduction of the second moment,
 // because guided paths cost more.
 constexpr float prior_share = 0.25f, least_gain = 0.1f;
-// With Guiding::where_it_pays, the largest remaining_second_moment() of a guided scene.
+// With Guiding::automatic, the largest remaining_second_moment() of a guided scene.
 constexpr double max_remaining = 0.85;
 
 /// A value for the square of bins, for its quarters, and so on down to single bins.
@@ -329,7 +329,7 @@ std::shared_ptr<const PathGuiding> GuidingLearner::make_guiding(Guiding when) {
         above = std::move(guide_of_cell);
     }
     const double left = remaining_second_moment();
-    if (when == Guiding::off || (when == Guiding::where_it_pays && left >= max_remaining))
+    if (when == Guiding::off || (when == Guiding::automatic && left >= max_remaining))
         for (DirectionGuide& guide : guides)
             guide.share = 0;
     guiding_ = std::make_shared<const PathGuiding>(grid_, std::move(above), std::move(guides), left);

@@ -114,7 +114,8 @@ private:
     std::span<const Rgb> components_at(const std::vector<Rgb>& components, std::size_t pixel) const {
         return {components.data() + pixel * component_count_, component_count_};
     }
-    /// Adds the result of entry `to`, minus that of entry `from` if there is one.
+    /// Adds the coefficient of pixel `to` of the set (an index into it) to a mean: for primal values without
+    /// `from`, and as a gradient, to - from, with it. `components` are the means of the basis components.
     static void add(const SamplingSet& set, std::optional<int> from, int to, Mean& mean,
                     std::span<Rgb> components);
     /// Adds what entry i sees from the current position.

@@ -32,7 +32,7 @@ void FirstInvalid::add(const InvalidSample& sample) {
 }
 
 void Counters::refuse(const InvalidSample& sample) {
-    ++refused_samples;
+    ++invalid_samples;
     first_invalid.add(sample);
 }
 
@@ -42,7 +42,7 @@ std::string invalid_text(const Counters& counters, std::uint64_t seed) {
     const InvalidSample& first = counters.first_invalid.list().front();
     return fmt::format(
         "{} samples were not finite and were left out; the first is pass {}, pixel ({}, {}), seed {}",
-        counters.refused_samples, first.pass, first.x, first.y, seed);
+        counters.invalid_samples, first.pass, first.x, first.y, seed);
 }
 
 Counters& Counters::operator+=(const Counters& other) {
@@ -56,7 +56,7 @@ Counters& Counters::operator+=(const Counters& other) {
     reused_paths += other.reused_paths;
     for (std::size_t i = 0; i < shifts.size(); ++i)
         shifts[i] += other.shifts[i];
-    refused_samples += other.refused_samples;
+    invalid_samples += other.invalid_samples;
     for (const InvalidSample& sample : other.first_invalid.list())
         first_invalid.add(sample);
     return *this;

@@ -78,7 +78,7 @@ struct Counters {
 
     std::array<std::uint64_t, shift_outcome_count> shifts{}; ///< by outcome
 
-    std::uint64_t refused_samples = 0; ///< invalid samples, which the film rejects
+    std::uint64_t invalid_samples = 0; ///< invalid samples, which the film rejects
     FirstInvalid first_invalid;
 
     std::uint64_t shift_attempts() const {

@@ -138,7 +138,8 @@ private:
     bool replays() const { return settings_.shift == ShiftKind::replay_reconnection; }
     /// Returns whether the base connects x_i to its light sample, theory (17).
     bool light_is_connectable(int i) const;
-    /// Returns whether an edge of y_i with this length is connectable, theory (17).
+    /// Returns whether the step of the offset path of lane m from y_i, over an edge of this length, is
+    /// connectable, theory (17): its lobe is wider than the angle by which the edge turns.
     bool is_connectable(int m, float distance) const {
         return rule_.covers(y_->roughness[m], rule_.turn(apart_[m], distance));
     }

@@ -134,8 +134,8 @@ public:
     LightTable(const SceneDescription& description, float radius, const std::vector<double>& factors = {});
 
     /// Returns the power of each light in the order of the description: area lights, point lights, directional
-    /// lights and the environment. Factors do not change it, except that an environment with factor 0 has power
-    /// 0.
+    /// lights and the environment. The constructor's factors on probabilities do not change it, except that an
+    /// environment with factor 0 has power 0.
     const std::vector<double>& powers() const { return powers_; }
 
     bool empty() const { return sources_.empty(); }

@@ -28,8 +28,8 @@ enum class TextureFilter : std::uint8_t {
 /// Whether guides, learned from earlier passes, draw some of the directions.
 enum class Guiding : std::uint8_t {
     off,
-    where_it_pays, ///< in scenes where samples show that the gain exceeds the cost
-    on             ///< in every scene, except in cells where samples show no gain
+    automatic, ///< in scenes where samples show that the gain exceeds the cost
+    on         ///< in every scene, except in cells where samples show no gain
 };
 
 /// Settings of base paths.
@@ -37,7 +37,7 @@ struct PathSettings {
     int max_depth = 8;      ///< limit on the edges of a light path; 1: directly visible emission only
     int roulette_depth = 3; ///< edges after which Russian roulette on path length begins; 0: no roulette
     TextureFilter filter_textures = TextureFilter::off;
-    Guiding path_guiding = Guiding::where_it_pays;
+    Guiding path_guiding = Guiding::automatic;
 
     bool operator==(const PathSettings&) const = default;
 };

@@ -68,15 +68,19 @@ constexpr SettingChoice roulette_kinds[] = {
 constexpr SettingChoice bases[] = {
     {"none", "none", "The radiance itself."},
     {"albedo", "albedo",
-     "The radiance divided by the albedo, which is smooth where only textures vary. The picture is multiplied by "
-     "the mean albedo of many points of each pixel [Fang 2024]. Takes at least 168 bytes more per pixel."},
+     "The radiance divided by the albedo, which is smooth where only textures vary. The result is multiplied by "
+     "the mean albedo of each pixel, over points independent of the samples [Fang 2024]. Takes at least 168 bytes "
+     "more per pixel."},
     {"sh1", "harmonics, 4",
      "The radiance divided by the albedo, in components by incident direction, which are smooth where normals "
      "vary, too [Fang 2024]. Four spherical harmonics, up to degree 1. Takes at least 568 bytes more per pixel."},
-    {"sh2", "harmonics, 9", "The same with nine, up to degree 2. Takes at least 1068 bytes more per pixel."},
-    {"sh3", "harmonics, 16", "The same with sixteen, up to degree 3. Takes at least 1768 bytes more per pixel."},
+    {"sh2", "harmonics, 9",
+     "As sh1, with nine spherical harmonics, up to degree 2. Takes at least 1068 bytes more per pixel."},
+    {"sh3", "harmonics, 16",
+     "As sh1, with sixteen spherical harmonics, up to degree 3. Takes at least 1768 bytes more per pixel."},
     {"box", "boxes, 9",
-     "The same with nine boxes of equal solid angle. Takes at least 1068 bytes more per pixel."},
+     "As sh1, with nine boxes that divide the sphere of directions into equal solid angles. Takes at least 1068 "
+     "bytes more per pixel."},
 };
 } // namespace
 

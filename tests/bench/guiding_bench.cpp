@@ -122,7 +122,7 @@ int main(int count, char** arguments) {
     tessera::RenderSettings settings;
     tessera::method_setting(settings.method).set_text(count > 2 ? arguments[2] : "pt");
     settings.path_guiding =
-        count > 5 && std::string(arguments[5]) == "auto" ? tessera::Guiding::where_it_pays : tessera::Guiding::on;
+        count > 5 && std::string(arguments[5]) == "auto" ? tessera::Guiding::automatic : tessera::Guiding::on;
     const auto scene = std::make_shared<const tessera::Scene>(tessera::load_mitsuba_xml(arguments[1]).description);
     tessera::measure(scene, settings, count > 3 ? std::stoi(arguments[3]) : 3,
                      count > 4 ? std::stoi(arguments[4]) : 128);

@@ -3,7 +3,7 @@
 
     python3 -m venv venv && venv/bin/pip install mitsuba pyoidn numpy
     venv/bin/python tests/bench/rivals.py build/release/app/tessera SCENES_FOLDER OUT [--scenes veach-ajar,kitchen]
-        [--times 5,20,60] [--size 640] [--seeds 2] [--reference-spp 1024]
+        [--times 5,20,60] [--size 640] [--seeds 2] [--reference-spp 8192]
 
 Methods, one thread each: G-PR `guided`; PT as sampled, denoised by Open Image Denoise; Mitsuba 3 (llvm_ad_rgb, path,
 its own roulette), denoised by Open Image Denoise with noise-free albedo and normal. All have depth 8 and the box filter.
@@ -11,8 +11,9 @@ Both programs read the same scene, without what they interpret differently (test
 
 Times are CPU seconds of rendering. The time of the reconstruction or the denoiser is a column of its own and comes on
 top. Loading and compilation of kernels are not counted. References are two independent path-traced pictures, one by
-Mitsuba and one by Tessera's PT; relMSE is the mean of (I - r1)(I - r2) / (r^2 + eps), in which their noise cancels.
-PSNR and FLIP (if flip_evaluator is installed) are of sRGB pictures and contain the noise of the references. Mitsuba's
+Mitsuba and one by Tessera's PT; relMSE is the mean of (I - r1)(I - r2) / (r^2 + eps), in which their noise cancels
+but for the denominator. PSNR and FLIP (if flip_evaluator is installed) are of sRGB pictures and contain the noise of the
+references. References need thousands of samples: with 256 in "Veach, Ajar" their noise is most of every figure. Mitsuba's
 llvm variant needs LLVM 16 or newer (DRJIT_LIBLLVM_PATH).
 
 Exit code 77: a library is missing.
@@ -65,7 +66,9 @@ def prepared(folder, name, width, out):
 
 
 def read(file, layer=""):
+    dr.set_thread_count(2)  # Mitsuba reads no EXR file with a single thread: it waits for a worker
     bitmap = mi.Bitmap(str(file))
+    dr.set_thread_count(1)
     names = [channel.name for channel in bitmap.struct_()]
     wanted = [f"{layer}.{c}" if layer else c for c in "RGB"]
     return np.array(bitmap, dtype=np.float32)[..., [names.index(n) for n in wanted]]
@@ -152,11 +155,10 @@ def main():
     parser.add_argument("--times", default="5,20,60")
     parser.add_argument("--size", type=int, default=640, help="width in pixels")
     parser.add_argument("--seeds", type=int, default=2)
-    parser.add_argument("--reference-spp", type=int, default=1024)
+    parser.add_argument("--reference-spp", type=int, default=8192)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    import pyoidn as package
-    os.environ.setdefault("TESSERA_OIDN", str(Path(package.__file__).parent))
+    os.environ.setdefault("TESSERA_OIDN", str(Path(pyoidn.__file__).parent))
     rows = []
     for name in options.scenes.split(","):
         scene = prepared(options.folder, name, options.size, options.out)

@@ -32,7 +32,7 @@ TEST(Film, RejectsInvalidSamples) {
                 PixelSample sample{Rgb(1), Rgb(1), Rgb(1), Rgb(1), Rgb(1), {{1, 1, 1, 1, 1, 1}, 1, 1}, 1};
                 (sample.*member)[channel] = invalid;
                 film.add(1, 0, 4, sample, counters);
-                EXPECT_EQ(counters.refused_samples, 1u);
+                EXPECT_EQ(counters.invalid_samples, 1u);
                 ASSERT_EQ(counters.first_invalid.list().size(), 1u);
                 EXPECT_EQ(counters.first_invalid.list()[0], (InvalidSample{4, 0, 1}));
                 const GradientImages images = film.means(1);
@@ -170,7 +170,7 @@ TEST(Film, RejectsInvalidFeatureAlbedos) {
         film.add_feature_sample(0, 0, 3, {Rgb(0.5f, invalid, 0.5f), {}}, counters);
         EXPECT_EQ(film.features().count(0, 0), 2);
         EXPECT_EQ(film.means(1).demodulation.albedo(0, 0), Rgb(0.25f));
-        ASSERT_EQ(counters.refused_samples, 1u);
+        ASSERT_EQ(counters.invalid_samples, 1u);
         EXPECT_EQ(counters.first_invalid.list()[0], (InvalidSample{3, 0, 0}));
     }
 }
@@ -186,7 +186,7 @@ TEST(Film, AddsTheLargestFloat) {
     Counters counters;
     for (int pass = 0; pass < 4; ++pass)
         film.add(0, 0, pass, {Rgb(std::numeric_limits<float>::max())}, counters);
-    EXPECT_EQ(counters.refused_samples, 0u);
+    EXPECT_EQ(counters.invalid_samples, 0u);
     EXPECT_EQ(film.means(4).primal(0, 0), Rgb(std::numeric_limits<float>::max()));
 }
 
@@ -252,7 +252,7 @@ TEST(Counters, KeepTheFirstInvalidSamplesInAnyOrder) {
         one.refuse(in_order[0]); // twice, as pixels that two blocks trace
         all.refuse(in_order[3]);
         for (const Counters& c : {one, all}) {
-            EXPECT_EQ(c.refused_samples, 5u);
+            EXPECT_EQ(c.invalid_samples, 5u);
             EXPECT_TRUE(std::ranges::equal(c.first_invalid.list(), in_order));
         }
     } while (std::next_permutation(std::begin(order), std::end(order)));
@@ -263,7 +263,7 @@ TEST(Counters, KeepOnlyTheFirstInvalidSamples) {
     constexpr int count = 3 * FirstInvalid::most;
     for (int i = 0; i < count; ++i)
         counters.refuse({0, 0, 7 * i % count}); // 7 and 48 have no common factor, so each occurs once
-    EXPECT_EQ(counters.refused_samples, static_cast<std::uint64_t>(count));
+    EXPECT_EQ(counters.invalid_samples, static_cast<std::uint64_t>(count));
     ASSERT_EQ(counters.first_invalid.list().size(), FirstInvalid::most);
     for (std::size_t i = 0; i < FirstInvalid::most; ++i)
         EXPECT_EQ(counters.first_invalid.list()[i].x, static_cast<int>(i));

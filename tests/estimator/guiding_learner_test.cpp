@@ -102,7 +102,7 @@ TEST(GuidingLearner, AutoDrawsOnlyIfItPaysInTheWholeScene) {
                 found[0].push_back(uniform_sample(bright, direction(-i), 1000));
         }
         learner.learn(found);
-        const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::where_it_pays);
+        const std::shared_ptr<const PathGuiding> guiding = learner.make_guiding(Guiding::automatic);
         ASSERT_TRUE(guiding && guiding->known_at(pays, up)) << "samples continue to estimate shares";
         EXPECT_LT(guiding->remaining_second_moment(), uniform_samples == 1 ? 0.3 : 0.98);
         EXPECT_GT(guiding->remaining_second_moment(), uniform_samples == 1 ? 0.05 : 0.9);
@@ -196,7 +196,7 @@ TEST(PathGuiding, AutoGuidesOnlyWhereItPays) {
             b.quad({-0.05f, y, -0.05f}, {0.1f, 0, 0}, {0, 0, 0.1f}, wall, lamp);
         b.camera({0, 0, 2.6f}, {0, -0.9f, -0.6f}, 16);
         const auto scene = b.build();
-        const RgbImage automatic = picture(scene, Guiding::where_it_pays);
+        const RgbImage automatic = picture(scene, Guiding::automatic);
         EXPECT_EQ(same(automatic, picture(scene, Guiding::on)), is_hidden);
         EXPECT_EQ(same(automatic, picture(scene, Guiding::off)), !is_hidden);
     }

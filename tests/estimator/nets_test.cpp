@@ -140,7 +140,7 @@ TEST(Nets, SpanPassesBetweenPowersOfTwo) {
 TEST(Nets, BeginAtTheSamePassesWithAndWithoutGuides) {
     const auto scene = lit_floor();
     RenderSettings guided = settings_of(Method::pt);
-    guided.path_guiding = Guiding::where_it_pays;
+    guided.path_guiding = Guiding::automatic;
     LearnedReuse learned(size, guided);
     learned.take(LearnedReuse(size, guided), 8);
     EXPECT_EQ(learned.first_pass(), 8);
@@ -233,7 +233,7 @@ TEST(Nets, RendersLearnAtPowersOfTwo) {
     const auto scene = lit_floor();
     ThreadPool pool(1);
     RenderSettings guided = settings_of(Method::pt);
-    guided.path_guiding = Guiding::where_it_pays;
+    guided.path_guiding = Guiding::automatic;
     for (const RenderSettings& s : {settings_of(Method::gpr), guided}) {
         Render render(scene, scene->camera(), size, s);
         for (const int first : {0, 1, 2, 2, 4, 4, 4, 4, 8}) {

@@ -35,7 +35,7 @@ GradientImages wall_with_firefly(float radiance) {
 TEST(Halo, IsFoundAroundTheBrightestSample) {
     const std::optional<Halo> halo = measure_halo(wall_with_firefly(1000), {.norm = Norm::none}, serial_for);
     ASSERT_TRUE(halo);
-    EXPECT_TRUE((PixelRect{20, 16, 24, 20}.contains(halo->spike)));
+    EXPECT_TRUE((PixelRect{20, 16, 24, 20}.contains(halo->firefly)));
     EXPECT_FALSE(measure_halo(wall_with_firefly(1), {}, serial_for)); // no sample is brighter than the others
     GradientImages large = wall_with_firefly(1000);
     large.patch = 48; // the square is the whole picture

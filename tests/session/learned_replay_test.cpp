@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LearningReplay,
                          testing::Values(settings_of(Method::pt), settings_of(Method::pr),
                                          settings_of(Method::gpt), settings_of(Method::gpr), rooks(),
                                          reconnection(), guided(Method::pt), guided(Method::gpr),
-                                         guided(Method::gpr, Guiding::where_it_pays)));
+                                         guided(Method::gpr, Guiding::automatic)));
 
 } // namespace
 

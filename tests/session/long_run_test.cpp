@@ -65,7 +65,7 @@ double drift(int passes) {
             before = after;
         }
     }
-    EXPECT_EQ(render.counters().refused_samples, 0u);
+    EXPECT_EQ(render.counters().invalid_samples, 0u);
     const auto variance_of_mean = [&](int half, std::size_t i, int c) {
         const double mean = sum[half][i][c] / batches_per_half;
         return (squares[half][i][c] / batches_per_half - mean * mean) / (batches_per_half - 1);

@@ -16,7 +16,7 @@ namespace tessera {
 namespace {
 
 constexpr double tooltip_delay = 0.4;   // seconds
-constexpr float label_fraction = 0.40f; // of a row's width
+constexpr float label_fraction = 0.46f; // of a row's width
 
 std::string hidden_label(const char* id) {
     return std::string("##") + id;

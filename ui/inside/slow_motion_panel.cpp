@@ -149,9 +149,9 @@ void draw_explanation(const ViewerState& state, Controls& controls) {
         return;
     ImGui::TextUnformatted(contribution_text(set, k).c_str());
     controls.place("slow.contribution_text",
-                   "Luminance of the radiance that pixels receive from this base path. Weights are 1/R over "
-                   "the survival probability, of the brightest light path (no unit). In "
-                   "the pixels: luminance above, weight below.");
+                   "Luminance of the radiance that pixels receive from this base path. The weight is that of its "
+                   "brightest light path: 1 / (sum of the ratios r_m over the sampling set), divided by the "
+                   "survival probability. In the pixels: luminance above, weight below.");
 }
 
 /// Draws a bar with one field for each base path of the tile: reused, skipped or dark; faint if not yet reached.

@@ -129,8 +129,8 @@ std::vector<StatusItem> status_items(const ViewerState& state, int index) {
             snapshot.reconstruction && !snapshot.coarse() ? snapshot.reconstruction->redistributed : 0;
         redistributed > 0)
         add("", fmt::format("fireflies: {:.3g} % redistributed", 100 * redistributed));
-    if (snapshot.counters.refused_samples > 0)
-        add("NaN or infinite", fmt::format("{} invalid samples", snapshot.counters.refused_samples));
+    if (snapshot.counters.invalid_samples > 0)
+        add("NaN or infinite", fmt::format("{} invalid samples", snapshot.counters.invalid_samples));
     return items;
 }
 

@@ -19,7 +19,8 @@ bool has_open_list() {
     return ImGui::IsPopupOpen(static_cast<const char*>(nullptr), ImGuiPopupFlags_AnyPopup);
 }
 
-/// Sends typed keys to the open list.
+/// Moves the selection of the open drop-down list or menu by typed arrow keys. Enter accepts it and Escape closes
+/// the list.
 void step_in_list(const std::vector<Shortcut>& typed) {
     constexpr std::pair<Key, ListStep> steps[] = {{Key::left, ListStep::left},  {Key::right, ListStep::right},
                                                   {Key::up, ListStep::up},      {Key::down, ListStep::down},
