@@ -118,7 +118,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     command.add_option("--layer", options.layer, "layer of the image to compare (default: its plain RGB)");
     limit(command.add_option(
               "--tile", options.tile,
-              "tile edge, pixels: measures how visible the tile grid is in the error (1: not visible)"),
+              "tile edge, pixels: prints three ratios that show the tile grid in the error (about 1: no grid)"),
           2, 64);
     command.add_flag("--json", options.json, "print JSON");
 }

@@ -174,9 +174,9 @@ struct CompareOptions {
 };
 
 /// `tessera compare`: prints the errors of the image against the reference, or against the mean of both
-/// references. With two references, or a reference with two halves, also prints errors without their noise. Of
-/// other files, the plain RGB is the reference, or `layer` if there is none. Returns 0, or 2 with a message on
-/// stderr for files that cannot be read or differ in size.
+/// references. With two references, or one that has two halves, also prints errors without their noise. Any
+/// other reference file gives its plain RGB; without plain RGB, its layer `layer`. Returns 0, or 2 with a message
+/// on stderr for files that cannot be read or differ in size.
 int run_compare(const CompareOptions& options);
 
 /// `tessera info`: prints the contents of a scene, the time and memory to load it, its features that affect

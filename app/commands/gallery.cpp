@@ -27,7 +27,11 @@ namespace {
 
 /// The setup whose verdict is below a picture, and the setups in its tooltip.
 constexpr std::string_view judged_setup = "gpr-guided";
-constexpr std::string_view shown_setups[] = {"pr", "gpt-guided", "gpr-weighted", judged_setup};
+struct ShownSetup {
+    std::string_view name, column;
+};
+constexpr ShownSetup shown_setups[] = {
+    {"pr", "PR"}, {"gpt-guided", "G-PT guided"}, {"gpr-weighted", "G-PR weighted"}, {judged_setup, "G-PR guided"}};
 
 RgbImage picture_of(const std::string& name) {
     for (const EmbeddedFile& file : gallery_pictures) {
@@ -53,14 +57,16 @@ std::vector<std::string> cells_of(std::string_view line) {
 
 /// Verdict of the stability suite on a setup, for a scene or for one value of its variable.
 struct Finding {
-    std::string scene, setup, text; ///< such as "glossy-0.01", "gpr-weighted", "worse 1.17"
+    std::string scene, setup; ///< such as "glossy-0.01", "gpr-weighted"
+    std::string verdict;      ///< its first word, such as "worse"
+    std::string factor;       ///< squared error relative to PT at equal time, such as "1.17"; empty: unknown
     bool is_ok = false;
 };
 
-/// Returns "worse 1.17" for "worse than PT" and "1.1653"; only the verdict if there is no factor.
-std::string short_verdict(const std::string& verdict, const std::string& factor) {
+/// Returns "1.17" for "1.1653"; empty for no number.
+std::string short_factor(const std::string& factor) {
     const std::optional<double> number = parse_number(factor);
-    return verdict.substr(0, verdict.find(' ')) + (number ? fmt::format(" {:.3g}", *number) : "");
+    return number ? fmt::format("{:.3g}", *number) : "";
 }
 
 /// Parses a table written by the suite (stability.csv).
@@ -79,26 +85,32 @@ std::vector<Finding> findings_of(std::string_view table) {
         const std::string method = cell("method"), recon = cell("recon"), verdict = cell("verdict");
         found.push_back({cell("scene"),
                          recon == "none" && !method.starts_with("g") ? method : method + "-" + recon,
-                         short_verdict(verdict, cell("factor")), verdict == "ok"});
+                         verdict.substr(0, verdict.find(' ')), short_factor(cell("factor")), verdict == "ok"});
     }
     return found;
 }
 
-/// Adds the verdicts of a scene and of the values of its variable. `names` holds the names of all scenes.
-void add_verdicts(GalleryEntry& entry, const std::vector<Finding>& findings, const std::set<std::string>& names) {
-    std::string scene;
+/// Adds the errors of a scene and of the values of its variable. `names` holds the names of all scenes.
+void add_errors(GalleryEntry& entry, const std::vector<Finding>& findings, const std::set<std::string>& names) {
+    entry.errors.columns = {"Scene"};
+    for (const ShownSetup& setup : shown_setups)
+        entry.errors.columns.emplace_back(setup.column);
     for (const Finding& finding : findings) {
         const bool is_value = finding.scene.starts_with(entry.title + "-") && !names.contains(finding.scene);
-        if (!(is_value || finding.scene == entry.title) ||
-            std::ranges::find(shown_setups, finding.setup) == std::end(shown_setups))
+        const auto* place = std::ranges::find(shown_setups, finding.setup, &ShownSetup::name);
+        if (!(is_value || finding.scene == entry.title) || place == std::end(shown_setups))
             continue;
-        if (std::exchange(scene, finding.scene) != finding.scene)
-            entry.help += "\n" + finding.scene + ":";
-        entry.help += fmt::format("  {} {}", finding.setup, finding.text);
+        auto& rows = entry.errors.rows;
+        if (rows.empty() || rows.back().front().text != finding.scene) {
+            rows.emplace_back(entry.errors.columns.size(), ErrorTable::Cell{"-"});
+            rows.back().front().text = finding.scene;
+        }
+        const std::string text = finding.factor.empty() ? finding.verdict : finding.factor;
+        rows.back()[1 + static_cast<std::size_t>(place - std::begin(shown_setups))] = {text, !finding.is_ok};
         if (finding.setup != judged_setup)
             continue;
         if (entry.verdict.empty() || !finding.is_ok)
-            entry.verdict = "G-PR " + finding.text;
+            entry.verdict = fmt::format("G-PR {} {}", finding.verdict, finding.factor);
         entry.is_worse = entry.is_worse || !finding.is_ok;
     }
 }
@@ -127,8 +139,9 @@ GalleryContents gallery(const std::function<std::vector<std::filesystem::path>()
     for (const std::filesystem::path& file : files) {
         const std::string name = file.stem().string();
         GalleryEntry entry{name, known_failure(file), "", false, file, picture_of(name)};
-        entry.help += "\nError at equal time, relative to PT (stability suite):";
-        add_verdicts(entry, findings, names);
+        add_errors(entry, findings, names);
+        if (!entry.errors.rows.empty())
+            entry.help += "\n\nError at equal time relative to PT (lower is better):";
         found.entries.push_back(std::move(entry));
     }
     return found;

@@ -130,7 +130,8 @@ ReferenceNoise measure_reference_noise(const RgbImage& reference1, const RgbImag
     double mean_variance = 0, fourth_power = 0; // fourth_power: mean of s^4
     const Image<double> errors = reference_errors(r1, r2);
     for (std::size_t i = 0; i < r1.size(); ++i) {
-        // (n1 - n2)^2 / 4 estimates the variance of (n1 + n2) / 2, and (n1 - n2)^2 / 2 that of n1 and n2.
+        // n1 and n2 are the noise of r1 and r2. (n1 - n2)^2 / 4 estimates the variance of their mean, and
+        // (n1 - n2)^2 / 2 that of each.
         mean_variance += std::pow((luminance(r1.data()[i]) - luminance(r2.data()[i])) / 2 / count, 2);
         // Normal noise has E[((n1 - n2)^2 / 2)^2] = 3 s^4.
         fourth_power += std::pow(2 * errors.data()[i], 2) / 3 / count;

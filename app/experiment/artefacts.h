@@ -53,7 +53,7 @@ ReferenceNoise measure_reference_noise(const RgbImage& reference1, const RgbImag
 
 /// How visible the tile grid is in an image's error. The spectral values are ratios of power: at the multiples of
 /// the tile frequency 1 / tile (cycles per pixel, up to 1/2, along rows and columns), over the power at
-/// neighbouring frequencies. 1: the grid is not visible.
+/// neighbouring frequencies. Without a visible grid they are about 1.
 struct TileSpectrum {
     /// Ratio for the error. It rises above 1 for a pattern that repeats in every tile. It falls below 1 for noise
     /// that is correlated within tiles but independent between them.

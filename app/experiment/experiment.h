@@ -62,8 +62,8 @@ class Experiment {
 public:
     /// Setups of one scene and one seed. They take turns pass by pass, so that other load on the machine slows
     /// all of them equally. With a time limit a job has all setups, since their errors depend on the speed. With
-    /// a sample count it has the setups of one point of the variations. Setups that differ only in reconstruction
-    /// share a render.
+    /// a sample count, it has the setups with equal values of all varied settings. Setups that differ only in
+    /// reconstruction share a render.
     struct Job {
         std::size_t scene;
         std::uint64_t seed;

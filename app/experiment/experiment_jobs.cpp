@@ -184,7 +184,7 @@ public:
         : jobs_(jobs), options_(options), folder_(options.output / "jobs"), silence_(options.sharing.silence),
           claims_(silence_), write_(write) {}
 
-    /// Removes the record of a final report, as jobs are unfinished.
+    /// Removes the record that the final report is written. To be called while jobs are unfinished.
     void forget() {
         if (const std::string mark = jobs_.mark(); !mark.empty())
             fs::remove(folder_ / mark);

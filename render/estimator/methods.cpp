@@ -78,7 +78,8 @@ void add_reused(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     add_sample(pass, x, y, sample, worker, film);
 }
 
-/// Reuses the paths of worker.set at one of its positions; does nothing if it has fewer positions.
+/// Reuses the paths of the sampling set T, worker.set, at sub-pixel position number `position`. Does nothing if T
+/// has no such position.
 /// @param all  rectangle of the pixels of T; empty: T is no rectangle, and has no gradients
 void reuse_in_set(const Pass& pass, PixelRect all, int position, Worker& worker, const Film& film) {
     SamplingSet& set = worker.set;

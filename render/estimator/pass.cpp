@@ -16,8 +16,9 @@ float guiding_fraction_of(glm::ivec2 size, const RenderSettings& settings, const
     return GuidingLearner::fraction_of_paths(size.x * size.y, index, guiding && guiding->draws());
 }
 
-/// Returns the pass with which the nets at x_1 begin: the first pass that uses LearnedReuse, or the last power of
-/// two, whichever is later. Nets begin at powers of two even if the render learns nothing.
+/// Returns the pass with which the low-discrepancy nets of random numbers at x_1 (PassNumbers) begin: the first
+/// pass that uses LearnedReuse, or the last power of two, whichever is later. Nets begin at powers of two even if
+/// the render learns nothing.
 int begin_of_nets(const LearnedReuse& learned, int pass) {
     return std::max(learned.first_pass(), static_cast<int>(std::bit_floor(static_cast<unsigned>(pass))));
 }

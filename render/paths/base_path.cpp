@@ -15,7 +15,7 @@
 // throughput of a path is the product over its vertices.
 //   It includes: the cosine at x_i, the choice of the lobe (in pdf_w), directions drawn from guides (in pdf_w),
 //   and q. It excludes: the camera ray, which has weight 1; the MIS weight of the last step, which is a factor of
-//   LightSample::brings and BaseVertex::hit_contribution; Russian roulette on reuse, whose weight 1/q
+//   LightSample::brings and BaseVertex::hit_contribution; the weight of Russian roulette on reuse, which
 //   PathReuse::share() applies; and division by the albedo of x_1 (demodulation), which Pass::albedo_of() and
 //   coefficient() do.
 // The roulette at x_i decides on the next step only, not on the light sample at x_i. So the contribution of that
@@ -99,7 +99,7 @@ void escape(const Tracer& tracer, BaseVertex& v, glm::vec3 direction) {
 /// Returns the survival probability of Russian roulette on path length at x_index. It depends on this scattering
 /// only, as in SmallVCM [Georgiev 2012], and not on the throughput so far: the end of a suffix must not depend on
 /// the pixel, because all pixels that reuse the suffix must agree on its light paths. Refraction scales radiance
-/// by the squared relative index and back at the other side, so the probability excludes that factor. With a
+/// by the squared relative index and back at the other side; the probability cancels that factor. With a
 /// guide, f cos / pdf is no measure of the loss, so the albedo replaces it. Delta scatters are the exception: no
 /// guide draws them, and their pdf is lower in proportion, so as many paths continue as without a guide.
 float path_survival(const PathSettings& settings, int index, const Vertex& x, const BsdfSample& s) {

@@ -18,7 +18,8 @@ struct LightSample {
     Rgb f_cos{0};
     float pdf_w = 0;   ///< of emitter sampling
     float pdf_sum = 0; ///< of emitter and BSDF sampling together, theory (3)
-    /// Radiance toward x_{i-1} with its MIS weight, f cos Le / pdf_sum; black: no light, or it is occluded.
+    /// Radiance toward x_{i-1} with its MIS weight, f cos Le / pdf_sum; black: no sample was drawn, or
+    /// the light is occluded.
     Rgb brings{0};
 };
 

@@ -132,8 +132,9 @@ void Shift::bounce_to_light(int i, int m) {
     end_at_light(light_->emitter_slot(i), m, *s, y.position, light, x.pdf_sum, false);
 }
 
-/// Shifts a light sample at a vertex too glossy to connect by random replay. As in PathReuse::replay_to_all(),
-/// the quotient of densities is 1, and the value is the offset's own sample.
+/// Shifts a light sample by random replay, because the vertex is too glossy to connect. As in
+/// PathReuse::replay_to_all(), the quotient of densities is 1. The value is the light sample that the same random
+/// numbers draw at the offset.
 void Shift::replay_light(int i, int m, EdgeGroup& edges) {
     LightSample drawn;
     Segment way;
@@ -152,7 +153,8 @@ void Shift::replay_light(int i, int m, EdgeGroup& edges) {
     edges.segments.to.set(m, way.to);
 }
 
-/// Ends a light path at `light` after a repeated scatter at `origin`, theory (6) and (7); fails if it is black.
+/// Ends a light path at `light` after the scatter `s` at `origin`, theory (6) and (7). Fails if no light arrives,
+/// or if the inverse shift would connect.
 /// @param base_pdf_sum  pdf of the base's last step, summed over strategies
 void Shift::end_at_light(int slot, int m, const CopiedScatter& s, glm::vec3 origin, const LightPoint& light,
                          float base_pdf_sum, bool is_delta) {

@@ -49,7 +49,7 @@ struct Vertex {
         return v;
     }
     std::optional<BsdfSample> sample(float lobe, glm::vec2 u) const { return sample_from(to_previous, lobe, u); }
-    /// Samples as if the vertex were seen from another direction, unit, in `frame`.
+    /// Samples as if the viewer were in direction `to_viewer`, a unit vector in `frame`.
     std::optional<BsdfSample> sample_from(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
         return guide ? sample_guided(to_viewer, lobe, u) : bsdf.sample(to_viewer, lobe, u);
     }
@@ -160,7 +160,7 @@ struct Tracer {
         return {};
     }
 
-    /// Returns the directly visible emission along a camera ray: at its first hit, and behind mirrors.
+    /// Returns the directly visible emission along a camera ray: at its first hit, and in mirrors.
     Rgb very_direct_along(Ray ray) const;
 
     /// Returns whether all rays from one point into a mirror see the same surface. Opacity masks, which some rays

@@ -206,10 +206,11 @@ private:
     glm::vec3 low_{0}, high_{0}; // bounding box of the emitting triangles
 };
 
-/// Learns factors on the power of each light for emitter sampling, in the order of LightTable::powers(). Every
-/// light is sampled at the vertices of 144 paths from the camera, because power alone favours an environment
-/// around a large scene over lamps in it. Deterministic. Returns an empty vector for fewer than two lights with
-/// power, or if no light reaches the paths. See docs/theory.md, "Choice of lights".
+/// Learns factors on the power of each light for emitter sampling, in the order of LightTable::powers(). Power
+/// alone favours an environment around a large scene over lamps in it. So the lights are sampled at the vertices
+/// of 144 paths from the camera: the 31 strongest one by one, all weaker ones as one group, which has one factor.
+/// Deterministic. Returns an empty vector for fewer than two lights with power, or if no light reaches the paths.
+/// See docs/theory.md, "Choice of lights".
 std::vector<double> learn_light_selection(const Scene& scene);
 
 } // namespace tessera

@@ -27,8 +27,9 @@ constexpr double power_fraction = 0.1, uniform_fraction = 0.1;
 
 /// The contribution of one light sample to a pixel.
 struct Contribution {
-    double light = 0;        // luminance, as a fraction of the pixel's
-    double bsdf_density = 0; // pdf of BSDF sampling over that of emitter sampling within the group; 0: cannot hit
+    double light = 0; // luminance, as a fraction of the pixel's
+    double bsdf_density =
+        0; // pdf of BSDF sampling over that of emitter sampling of the light's Group; 0: it cannot hit
 };
 
 /// Lights that share one probability; usually a single light.

@@ -18,7 +18,7 @@ namespace tessera {
 
 namespace {
 
-/// Returns the coefficients of [Preetham 1999, A.2].
+/// Returns the Perez coefficients of Y, x and y [Preetham 1999, A.2].
 Sky::Perez perez_coefficients(float turbidity) {
     const glm::vec3 t(turbidity);
     return {glm::vec3(0.1787f, -0.0193f, -0.0167f) * t + glm::vec3(-1.4630f, -0.2592f, -0.2608f),

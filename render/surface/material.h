@@ -67,7 +67,7 @@ struct MixtureMaterial {
     /// For two parts: the weight of the second (luminance); the first has the rest. Replaces `weights`.
     std::optional<Texture> blend_weight{};
 
-    /// Returns the weight of a part.
+    /// Returns the weight of parts[part] at a surface point.
     float weight(std::size_t part, const SurfacePoint& at) const;
 };
 

@@ -49,7 +49,7 @@ Rgb fresnel_conductor(float cos_previous, Rgb eta, Rgb k) {
     const Rgb s2 = 2.0f * cos_previous * a;
     const Rgb p1 = a2_plus_b2 * cos2 + sin2 * sin2;
     const Rgb p2 = s2 * sin2;
-    // Mean of the perpendicular part s = (s1 - s2) / (s1 + s2) and the parallel part s (p1 - p2) / (p1 + p2).
+    // Mean of two reflectances: perpendicular, s = (s1 - s2) / (s1 + s2), and parallel, s (p1 - p2) / (p1 + p2).
     return (s1 - s2) * p1 / ((s1 + s2) * (p1 + p2));
 }
 

@@ -30,7 +30,13 @@ TEST(Gallery, HasAllScenesOfTheSuite) {
         return place == entries.end() ? GalleryEntry{} : *place;
     };
     // Verdicts of the last run of the suite, whatever they are.
-    EXPECT_THAT(entry("glossy").help, testing::ContainsRegex("\nglossy-0.03:  pr [a-z]+ [0-9.]+  gpt-guided "));
+    const ErrorTable& errors = entry("glossy").errors;
+    EXPECT_THAT(errors.columns,
+                testing::ElementsAre("Scene", "PR", "G-PT guided", "G-PR weighted", "G-PR guided"));
+    const auto row = std::ranges::find(errors.rows, "glossy-0.03", [](const auto& r) { return r.front().text; });
+    ASSERT_NE(row, errors.rows.end());
+    for (std::size_t i = 1; i < row->size(); ++i)
+        EXPECT_THAT((*row)[i].text, testing::ContainsRegex("^[0-9.]+$")) << errors.columns[i];
     EXPECT_THAT(entry("normal-map").verdict, testing::ContainsRegex("^G-PR [a-z]+ [0-9.]+$"));
 }
 
@@ -48,8 +54,14 @@ TEST(Gallery, MarksScenesWhereTheDefaultIsWorse) {
                                  : entry.title == "edges" ? "G-PR ok 0.25"
                                                           : "");
         if (entry.title == "glossy") {
-            EXPECT_THAT(entry.help,
-                        testing::HasSubstr("\nglossy-0.1:  gpr-guided ok 0.5  gpr-weighted worse 1.1"));
+            ASSERT_EQ(entry.errors.rows.size(), 2u);
+            const auto& row = entry.errors.rows[1];
+            EXPECT_EQ(row[0].text, "glossy-0.1");
+            EXPECT_EQ(row[1].text, "-") << "PR was not measured";
+            EXPECT_EQ(row[3].text, "1.1");
+            EXPECT_TRUE(row[3].is_worse);
+            EXPECT_EQ(row[4].text, "0.5");
+            EXPECT_FALSE(row[4].is_worse);
         }
     }
 }

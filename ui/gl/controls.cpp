@@ -22,11 +22,13 @@ std::string hidden_label(const char* id) {
     return std::string("##") + id;
 }
 
-void draw_tooltip(const char* text) {
+void draw_tooltip(const char* text, const std::function<void()>& draw_below) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
+    if (draw_below)
+        draw_below();
     ImGui::EndTooltip();
 }
 
@@ -47,7 +49,7 @@ void Controls::begin_frame(double time) {
     tooltip_pending_ = false;
 }
 
-void Controls::place(const char* id, const char* help) {
+void Controls::place(const char* id, const char* help, const std::function<void()>& draw_below) {
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     rects_[id] = {{min.x, min.y}, {max.x, max.y}};
     const bool explains = help != nullptr && *help != 0;
@@ -60,7 +62,7 @@ void Controls::place(const char* id, const char* help) {
         hovered_since_ = time_;
     const bool in_use = ImGui::IsItemActive();
     if (!in_use && time_ - hovered_since_ >= tooltip_delay)
-        draw_tooltip(help);
+        draw_tooltip(help, draw_below);
     else if (!in_use)
         tooltip_pending_ = true;
 }

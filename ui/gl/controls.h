@@ -53,7 +53,7 @@ public:
     /// A list as wide as the row. Its items are recorded as "id/item id" while the list is open.
     bool choice(const char* id, const char* label, std::span<const ChoiceItem> items, int& index,
                 const char* help);
-    /// A list of a given width without a label, which shows `shown` in place of the item's label.
+    /// A list of a given width without a label. Closed, it shows `shown` and not the chosen item's label.
     bool bare_choice(const char* id, const char* shown, std::span<const ChoiceItem> items, int& index, float width,
                      const char* help);
     bool slider(const char* id, const char* label, int& value, int least, int most, const char* help);
@@ -73,9 +73,9 @@ public:
 
     /// Draws a row's label for another widget, which then fills the row.
     void label(const char* text) const;
-    /// Records the rectangle of the item just drawn, and shows `help` as its tooltip. An item without help must
-    /// explain itself, as a menu does.
-    void place(const char* id, const char* help);
+    /// Records the rectangle of the item just drawn, and shows `help` as its tooltip, with what `draw_below` draws
+    /// below the text. An item without help must explain itself, as a menu does.
+    void place(const char* id, const char* help, const std::function<void()>& draw_below = {});
 
     /// Records the rectangle of an area that is no item, without a tooltip.
     void place_rect(const char* id, glm::vec2 min, glm::vec2 max) { rects_[id] = {min, max}; }

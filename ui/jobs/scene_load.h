@@ -40,6 +40,16 @@ bool is_same_scene(const SceneOrigin& a, const SceneOrigin& b);
 /// Makes the origin of a scene file.
 using SceneOpener = std::function<SceneOrigin(const std::filesystem::path&)>;
 
+/// A table of errors in a tooltip. Each row has one cell per column.
+struct ErrorTable {
+    struct Cell {
+        std::string text;
+        bool is_worse = false; ///< drawn in the warning colour
+    };
+    std::vector<std::string> columns;
+    std::vector<std::vector<Cell>> rows; ///< empty: no table
+};
+
 /// A scene of the gallery.
 struct GalleryEntry {
     std::string title;
@@ -48,6 +58,7 @@ struct GalleryEntry {
     bool is_worse = false;      ///< whether the verdict is negative
     std::filesystem::path file; ///< empty: the scene that is built into the program
     RgbImage picture{};         ///< thumbnail, sRGB; empty: none
+    ErrorTable errors{};        ///< below the tooltip's text
 };
 
 struct GalleryContents {

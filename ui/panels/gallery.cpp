@@ -39,6 +39,25 @@ std::vector<GalleryEntry> recent_entries(const std::vector<std::string>& scenes,
     return entries;
 }
 
+/// Draws a table of errors; nothing if it has no rows.
+void draw_errors(const ErrorTable& table) {
+    if (table.rows.empty() || !ImGui::BeginTable("errors", static_cast<int>(table.columns.size()),
+                                                 ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersInnerH))
+        return;
+    for (const std::string& column : table.columns)
+        ImGui::TableSetupColumn(column.c_str());
+    ImGui::TableHeadersRow();
+    for (const auto& row : table.rows) {
+        for (const ErrorTable::Cell& cell : row) {
+            ImGui::TableNextColumn();
+            ImGui::PushStyleColor(ImGuiCol_Text, cell.is_worse ? colours::warning : colours::text);
+            ImGui::TextUnformatted(cell.text.c_str());
+            ImGui::PopStyleColor();
+        }
+    }
+    ImGui::EndTable();
+}
+
 /// Draws a dashed frame as a hint. Files can be dropped anywhere on the window.
 void draw_drop_target(Controls& controls) {
     constexpr const char* text = "Drop a scene, a picture or a settings file here";
@@ -78,7 +97,7 @@ void Gallery::draw_card(const std::string& id, const GalleryEntry& entry, GlText
     if (ImGui::InvisibleButton(id.c_str(), size))
         open(entry.file, state);
     const bool hovered = ImGui::IsItemHovered();
-    controls.place(id.c_str(), entry.help.c_str());
+    controls.place(id.c_str(), entry.help.c_str(), [&] { draw_errors(entry.errors); });
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end(min.x + picture.x, min.y + picture.y);
     list.AddRectFilled(min, end, IM_COL32(0, 0, 0, 255));

@@ -116,9 +116,9 @@ void draw_size_settings(Controls& controls, ViewerState& state) {
         state.rendering.size.scale = percent / 100.0f;
     const glm::ivec2 size = state.request_size(), fitting = state.fitting_size();
     ImGui::TextDisabled("%d x %d pixels per pane", size.x, size.y);
-    controls.place("pixels", "Rendered size. A change of the panels or the window keeps samples: it scales the "
-                             "pictures until the panes "
-                             "restart.");
+    controls.place("pixels",
+                   "Rendered size. If the panels or the window change, the samples stay and the pictures "
+                   "are scaled. A restart uses the new size.");
     if (size != fitting) {
         ImGui::TextDisabled("%d x %d after restart", fitting.x, fitting.y);
         controls.place(

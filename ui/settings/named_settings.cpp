@@ -167,7 +167,8 @@ std::vector<Setting> settings_of(Tone& tone) {
     const float low = ranges::exposure.low(), high = ranges::exposure.high();
     return {
         {"tone", "Tone curve", "Maps radiance to brightness on the screen (Y).", one_of(words::tones, tone.curve)},
-        {"exposure", "Exposure", "Brightness on the screen: each stop doubles it, also that of gradients.",
+        {"exposure", "Exposure",
+         "Exposure in stops. Each stop doubles the brightness on the screen, of gradients too.",
          Setting::Real{&tone.exposure, low, high, low, high, "%+.1f stops"}},
         {"difference_exposure", "Difference exposure",
          "Additional exposure of gradients and differences. F6 sets it automatically.",

@@ -114,8 +114,8 @@ constexpr Action table[] = {
      no_shortcut, show_buffer<Buffer::reference>, shows_buffer<Buffer::reference>},
 
     {"More buffers", "Roulette survival",
-     "Shows the fraction of each pixel's base paths with light that survive Russian roulette on reuse, in all "
-     "panes.",
+     "Of each pixel's base paths that carry light, shows the fraction that survives Russian roulette on reuse, in "
+     "all panes.",
      no_shortcut, no_shortcut, show_buffer<Buffer::survival>, shows_buffer<Buffer::survival>},
     {"More buffers", "Directly visible emitters",
      "Shows the emission that the camera sees directly, in all panes.", no_shortcut, no_shortcut,

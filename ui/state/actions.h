@@ -62,7 +62,7 @@ public:
     void type(char character);
     void release_all() { down_.reset(); }
 
-    /// Whether the key at this place is held. Places keep W A S D together on every layout.
+    /// Whether the key at this place of a US keyboard is held. So W A S D are neighbours on every layout.
     bool is_down(Key physical) const { return down_[static_cast<std::size_t>(physical)]; }
 
     /// Returns the presses and characters since the previous call, in order.

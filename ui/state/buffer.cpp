@@ -229,7 +229,7 @@ std::string missing_text(const Snapshot* snapshot, Method method, Buffer buffer,
     if (family(buffer) == BufferFamily::basis && method == Method::pt)
         return name + " does not demodulate the albedo";
     if (family(buffer) == BufferFamily::basis && snapshot && snapshot->settings.basis == Basis::none)
-        return "The basis is none: the albedo is not demodulated";
+        return "With basis \"none\" the albedo is not demodulated";
     if (buffer == Buffer::projection && !has_gradients(method))
         return name + " measures no gradients, and so has no basis components";
     if (buffer == Buffer::projection && snapshot && !is_expanded(snapshot->settings))

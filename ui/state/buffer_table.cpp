@@ -28,8 +28,8 @@ constexpr BufferInfo table[] = {
      "shifts. Its value, also in differences, is the percentage of failed shifts. Not for PT.",
      Family::reuse, ColourMap::own, "%", 100},
     {Buffer::survival, "survival", "Roulette survival",
-     "Percentage of a pixel's base paths with light that survive Russian roulette on reuse, in all passes; 0 "
-     "without such paths. A survivor has the weight 1/q for its survival probability q. With roulette none, "
+     "Of a pixel's base paths that carry light, the percentage that survives Russian roulette on reuse, in all "
+     "passes; 0 without such paths. A survivor has the weight 1/q for its survival probability q. With roulette none, "
      "and for G-PT, all survive. Not for PT.",
      Family::reuse, ColourMap::false_colour, "%", 100},
     {Buffer::very_direct, "very_direct", "Directly visible emitters",
