@@ -153,7 +153,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
 }
 
 bool is_reference(const std::filesystem::path& path) {
-    return read_exr_attributes(path).count(reference_attribute) > 0;
+    return is_exr_file(path) && read_exr_attributes(path).count(reference_attribute) > 0;
 }
 
 ReferenceImage read_reference(const std::filesystem::path& path) {
