@@ -317,6 +317,28 @@ TEST_F(Compare, WritesErrorMaps) {
     EXPECT_THROW(parse_map("flip"), BadInput);
 }
 
+/// Files that other programs wrote: the same noisy picture in several layouts, and the reference in others.
+TEST_F(Compare, ReadsFilesOfOtherPrograms) {
+    const fs::path folder = fs::path(TESSERA_SHARED_DIR) / "bugs";
+    if (!fs::exists(folder / "exr_reference.exr"))
+        GTEST_SKIP() << "there are no files in " << folder;
+    const auto relative_mse = [&](const std::string& name) {
+        EXPECT_EQ(run(json_of(folder / name, folder / "exr_reference.exr")), 0) << err_;
+        return nlohmann::json::parse(out_)["relmse"].get<double>();
+    };
+    const double noise = relative_mse("exr_aov_layers.exr");
+    EXPECT_GT(noise, 0.005);
+    for (const char* name : {"exr_lowercase_rgb.exr", "exr_vray_dot_channels.exr", "exr_layers_only.exr",
+                             "exr_multipart_rgb_second.exr", "x_dot.exr"})
+        EXPECT_DOUBLE_EQ(relative_mse(name), noise) << name;
+    EXPECT_NEAR(relative_mse("picture.png"), noise, 0.01 * noise);
+    EXPECT_LT(relative_mse("exr_xyz_channels.exr"), 1e-6);
+    EXPECT_LT(relative_mse("exr_luminance_chroma.exr"), 1e-3);
+    ASSERT_EQ(run(json_of(folder / "exr_crop_a.exr", folder / "exr_crop_b.exr")), 0) << err_;
+    EXPECT_EQ(nlohmann::json::parse(out_)["psnr"], "inf");
+    EXPECT_EQ(nlohmann::json::parse(out_)["pixels"], 30 * 19);
+}
+
 TEST_F(Compare, TakesTheReferenceFromOptionOrPosition) {
     CompareArguments words;
     words.files = {"a.exr", "b.exr"};

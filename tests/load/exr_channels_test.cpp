@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <ImathMatrix.h>
+#include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -191,6 +193,20 @@ TEST_F(ExrChannelNames, OtherPrimariesAreConverted) {
         file,
         {{constant_channels({{"R", 1}, {"G", 0}, {"B", 0}}), "", {{0, 0}, {7, 5}}, {{0, 0}, {7, 5}}, &on_a_line}});
     EXPECT_THAT(refusal(), HasSubstr("chromaticities in its header span no colours"));
+}
+
+/// Primaries X, Y and Z with a white of D65: (1, 1, 1) is white, as OpenEXR's own matrices have it.
+TEST_F(ExrChannelNames, OfPrimariesXyzAreScaledToTheirWhite) {
+    const Imf::Chromaticities xyz({1, 0}, {0, 1}, {0, 0}, {0.31271f, 0.32902f});
+    write_test_exr(file, {{constant_channels({{"R", 0.28f}, {"G", 0.29f}, {"B", 0.51f}}),
+                           "",
+                           {{0, 0}, {7, 5}},
+                           {{0, 0}, {7, 5}},
+                           &xyz}});
+    const Imath::V3f expected =
+        Imath::V3f(0.28f, 0.29f, 0.51f) * (Imf::RGBtoXYZ(xyz, 1) * Imf::XYZtoRGB(Imf::Chromaticities(), 1));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel()[c], expected[c], 1e-3);
 }
 
 TEST_F(ExrChannelNames, OfADeepImageAreNotSupported) {
