@@ -107,22 +107,6 @@ void add_render(CLI::App& app, Words& words, RenderOptions& options) {
         "fireflies, if any.");
 }
 
-void add_compare(CLI::App& app, CompareOptions& options) {
-    CLI::App& command =
-        *app.add_subcommand("compare", "measure the errors of an image against one or two references");
-    command.add_option("image", options.image, "EXR file")->required();
-    command.add_option("reference", options.reference, "EXR file")->required();
-    command.add_option(
-        "reference2", options.reference2,
-        "second, independent reference, if the first has no halves: errors exclude the noise of references");
-    command.add_option("--layer", options.layer, "layer of the image to compare (default: its plain RGB)");
-    limit(command.add_option(
-              "--tile", options.tile,
-              "tile edge, pixels: prints three ratios that show the tile grid in the error (about 1: no grid)"),
-          2, 64);
-    command.add_flag("--json", options.json, "print JSON");
-}
-
 void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     CLI::App& command = *app.add_subcommand("view", "explore a scene in a window");
     add_scene(command, words, false);
@@ -240,7 +224,7 @@ int run_command_line(int argc, char** argv) {
     ExperimentArguments sweep_words, bench_words, stability_words;
     ReferenceArguments reference_arguments;
     MergeOptions merge_options;
-    CompareOptions compare_options;
+    CompareArguments compare_words;
     ViewOptions view_options;
     ReconstructArguments reconstruct_words;
     add_view(app, view_words, view_options);
@@ -251,7 +235,7 @@ int run_command_line(int argc, char** argv) {
     add_bench(app, bench_words);
     add_stability(app, stability_words);
     add_reconstruct(app, reconstruct_words);
-    add_compare(app, compare_options);
+    add_compare(app, compare_words);
     CLI::App& info =
         *app.add_subcommand("info", "print the contents of a scene, and its parts that are not supported");
     add_scene(info, info_words, true);
@@ -286,7 +270,7 @@ int run_command_line(int argc, char** argv) {
     if (app.got_subcommand("view"))
         return view(*app.get_subcommand("view"), view_words, view_options);
     if (app.got_subcommand("compare"))
-        return run_compare(compare_options);
+        return run_compare(parse_compare(compare_words));
     if (app.got_subcommand("info"))
         return run_info(info_words.source());
     return exit_ok;

@@ -2,6 +2,7 @@
 
 #include "app/cli/opened_scene.h"
 #include "app/cli/picture_layers.h"
+#include "app/compare/error_maps.h"
 #include "app/experiment/experiment.h"
 #include "app/experiment/references.h"
 #include "recon/image.h"
@@ -164,19 +165,37 @@ void add_reconstruct(CLI::App& app, ReconstructArguments& words);
 /// Parses the arguments. Throws BadInput that names the option.
 ReconstructOptions parse_reconstruct(const ReconstructArguments& words);
 
+enum class ComparisonFormat { text, json, csv };
+
+/// Options of `tessera compare`.
 struct CompareOptions {
-    std::filesystem::path image;
+    std::vector<std::filesystem::path> images; ///< at least one
     std::filesystem::path reference;
     std::filesystem::path reference2; ///< independent of the first; empty: none
-    std::string layer;                ///< layer of `image`, such as "primal"; empty: its plain RGB
-    bool json = false;
+    std::string layer; ///< of the images, as choose_layer() in render/io/exr_layers.h; empty: the picture
+    std::string reference_layer; ///< of the references; empty: the picture, or both halves
+    std::vector<MapFile> maps;   ///< written for each image
+    ComparisonFormat format = ComparisonFormat::text;
     int tile = 0; ///< tile edge for the tile spectrum, pixels; 0: none
 };
 
-/// `tessera compare`: prints the errors of the image against the reference, or against the mean of both
-/// references. With two references, or one that has two halves, also prints errors without their noise. Any
-/// other reference file gives its plain RGB; without plain RGB, its layer `layer`. Returns 0, or 2 with a message
-/// on stderr for files that cannot be read or differ in size.
+/// Command-line arguments of `tessera compare`.
+struct CompareArguments {
+    CompareOptions options;
+    std::vector<std::string> files, maps;
+    bool json = false, csv = false;
+};
+
+/// Adds the subcommand to `app`, which stores its arguments in `words`; `words` must outlive `app`.
+void add_compare(CLI::App& app, CompareArguments& words);
+
+/// Parses the arguments. Throws BadInput that names the option.
+CompareOptions parse_compare(const CompareArguments& words);
+
+/// `tessera compare`: prints the errors of each image against the reference, or against the mean of both
+/// references. With two references, or one that has two halves, also prints errors without their noise. Images of
+/// any format are compared in the pixels that their display windows have in common. Returns 0, or 2 with messages
+/// on stderr for files that cannot be read or compared; the others are printed.
 int run_compare(const CompareOptions& options);
 
 /// `tessera info`: prints the contents of a scene, the time and memory to load it, its features that affect

@@ -3,12 +3,13 @@
 #include "app/commands/commands.h"
 #include "render/io/exr.h"
 #include "render/io/files.h"
-#include "render/io/plain_images.h"
+#include "render/io/picture_file.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <system_error>
@@ -97,13 +98,14 @@ Buffers buffers_of(const ExrFile& file, const std::filesystem::path& path) {
     return buffers;
 }
 
+/// Reads an image of signed values. Formats of bytes cannot have these.
 RgbImage read_image(const std::filesystem::path& path) {
-    const std::string extension = extension_of(path);
-    if (extension == ".pfm")
-        return read_pfm(path);
-    if (extension == ".exr")
-        return require_layer(read_exr(path), "", path);
-    throw BadInput(fmt::format("{}: the name must end in .exr or .pfm", path.string()));
+    if (extension_of(path) != ".exr" && extension_of(path) != ".pfm")
+        throw BadInput(fmt::format("{}: the name must end in .exr or .pfm", path.string()));
+    Picture picture = read_picture(path);
+    for (const std::string& note : picture.notes)
+        fmt::print(stderr, "note: {}: {}\n", path.string(), note);
+    return std::move(picture.image);
 }
 
 std::string text_of_size(const RgbImage& image) {

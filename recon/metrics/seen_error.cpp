@@ -223,7 +223,7 @@ double psnr(const RgbImage& image, const RgbImage& reference1, const RgbImage& r
         sum += glm::dot(here - shown(reference1.data()[i]), here - shown(reference2.data()[i]));
     }
     const double mean = sum / (3 * static_cast<double>(image.size()));
-    return mean > 0 ? -10 * std::log10(mean) : std::nan("");
+    return mean >= 0 ? -10 * std::log10(mean) : std::nan(""); // infinite for 0
 }
 
 Image<float> flip(const RgbImage& image, const RgbImage& reference, const ParallelFor& parallel_for) {

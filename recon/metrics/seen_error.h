@@ -8,8 +8,9 @@ namespace tessera {
 
 /// Returns the peak signal-to-noise ratio in decibels, estimated from two independent references:
 /// -10 log10 of the mean of (D(I) - D(r1)) (D(I) - D(r2)), where D is the sRGB code in [0, 1]. The noise of the
-/// references drops out of the mean. Returns NaN if the mean is not above 0, as for equal pictures. Throws
-/// std::invalid_argument if sizes differ or the images are empty.
+/// references drops out of the mean. Returns infinity if the mean is 0, as for equal pictures, and NaN if it is
+/// below 0, as noise makes it for a picture very close to the truth. Throws std::invalid_argument if sizes differ
+/// or the images are empty.
 double psnr(const RgbImage& image, const RgbImage& reference1, const RgbImage& reference2);
 
 /// Returns the FLIP map [Andersson 2020]: the difference at each pixel, in [0, 1], that an observer sees who flips

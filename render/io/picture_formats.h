@@ -4,10 +4,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace tessera {
+
+/// A picture of a file, in linear light with Rec. 709 primaries, and its place.
+struct Picture {
+    RgbImage image;
+    /// Rectangles in the pixel coordinates that pictures of one view share: of `image`, and of the view. The image
+    /// may be smaller than the view (a crop) or larger (overscan). Formats other than OpenEXR have no crops.
+    PixelRect data{}, display{};
+    std::vector<std::string> notes{}; ///< what was chosen among several layers, or converted
+};
 
 /// Return whether the bytes have the signature of the format. TGA has none.
 bool is_png(std::string_view bytes);

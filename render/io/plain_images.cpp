@@ -157,6 +157,11 @@ float read_float(const char* bytes, bool is_little_endian) {
 
 } // namespace
 
+bool is_pfm(std::string_view bytes) {
+    return bytes.size() > 2 && (bytes.starts_with("PF") || bytes.starts_with("Pf")) &&
+           white_space.find(bytes[2]) != std::string_view::npos;
+}
+
 RgbImage parse_pfm(std::string_view bytes) {
     const PfmHeader header = take_header(bytes);
     const std::size_t pixel_bytes = sizeof(float) * static_cast<std::size_t>(header.channels);

@@ -30,6 +30,9 @@ std::vector<char> encode_png(const RgbImage& image, float exposure = 0);
 /// its sign. Throws std::runtime_error that names the file.
 RgbImage read_pfm(const std::filesystem::path& path);
 
+/// Returns whether the bytes begin as a portable float map.
+bool is_pfm(std::string_view bytes);
+
 /// Reads a portable float map in memory; errors name no file.
 RgbImage parse_pfm(std::string_view bytes);
 

@@ -1,11 +1,10 @@
-#include "render/io/exr.h"
 #include "render/io/files.h"
-#include "render/io/picture_formats.h"
+#include "render/io/picture_file.h"
 #include "render/load/plugins.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -36,22 +35,18 @@ Bitmap bitmap_of(ByteImage image, bool srgb) {
 
 } // namespace
 
-Bitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
-                    const std::function<bool()>& keep_reading) {
-    if (is_exr(encoded))
-        return bitmap_of(parse_exr_picture(encoded, [&](float) { return keep_reading(); }));
-    if (is_radiance(encoded))
-        return bitmap_of(parse_radiance(encoded, keep_reading));
-    if (is_png(encoded))
-        return bitmap_of(parse_png(encoded, keep_reading), srgb);
-    if (is_jpeg(encoded))
-        return bitmap_of(parse_jpeg(encoded, keep_reading), srgb);
-    if (is_bmp(encoded) || extension == ".tga") // TGA has no signature
-        return bitmap_of(parse_bmp_or_tga(encoded, keep_reading), srgb);
-    throw std::runtime_error("it is not an OpenEXR, Radiance, PNG, JPEG, BMP or TGA picture");
+LoadedBitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
+                          const std::function<bool()>& keep_reading) {
+    DecodedPicture picture = decode_picture(encoded, extension, {}, [&](float) { return keep_reading(); });
+    if (!picture.bytes.rgb.empty())
+        return {bitmap_of(std::move(picture.bytes), srgb), {}};
+    std::string notes;
+    for (const std::string& note : picture.floats.notes)
+        notes += (notes.empty() ? "" : "; ") + note;
+    return {bitmap_of(std::move(picture.floats.image)), std::move(notes)};
 }
 
-Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading) {
+LoadedBitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading) {
     return parse_bitmap(read_bytes(file), extension_of(file), srgb, keep_reading);
 }
 

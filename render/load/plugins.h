@@ -90,14 +90,20 @@ void read_field_of_view(Properties& properties, Camera& camera);
 /// Reads a <sensor> with its film: camera and image size.
 void read_sensor(LoadContext& context, const XmlElement& element);
 
-/// Reads an image as three channels: OpenEXR and Radiance as linear floats, PNG, JPEG, TGA and BMP as bytes,
-/// sRGB-encoded or linear as `srgb` says. The content decides on the format; only TGA, which has no signature,
-/// needs its extension ".tga". Alpha is dropped, grey is repeated. Polls `keep_reading`. Throws
+/// A bitmap, and what was chosen or converted to read it (Picture::notes), as the text of a note.
+struct LoadedBitmap {
+    Bitmap bitmap;
+    std::string note; ///< empty: nothing
+};
+
+/// Reads an image as three channels: OpenEXR, Radiance and PFM as linear floats, PNG, JPEG, TGA and BMP as bytes,
+/// sRGB-encoded or linear as `srgb` says. The format and the layer are those of decode_picture()
+/// (render/io/picture_file.h). Alpha is dropped, grey is repeated. Polls `keep_reading`. Throws
 /// std::runtime_error, also for a size that file or memory cannot hold, and once `keep_reading` returns false.
-Bitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading);
+LoadedBitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading);
 
 /// Does the same for an image in memory; `extension` is its file name's.
-Bitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
-                    const std::function<bool()>& keep_reading);
+LoadedBitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
+                          const std::function<bool()>& keep_reading);
 
 } // namespace tessera

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include <glm/common.hpp>
@@ -155,8 +156,9 @@ std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties&
         shared = std::make_shared<Bitmap>();
         context.jobs.add(file->parameter,
                          [target = shared, path = file->path, srgb](const std::function<bool()>& keep_reading) {
-                             *target = read_bitmap(path, srgb, keep_reading);
-                             return std::string();
+                             LoadedBitmap loaded = read_bitmap(path, srgb, keep_reading);
+                             *target = std::move(loaded.bitmap);
+                             return loaded.note;
                          });
     }
     return shared;

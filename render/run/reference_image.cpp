@@ -142,7 +142,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
         file.layers.push_back({half_names[i], reference.halves[i]});
     file.layers.push_back({"variance", variance_of(reference)});
     if (!reference.doubt.empty())
-        file.layers.push_back({"doubt", grey(reference.doubt)});
+        file.layers.push_back({"doubt", grey(reference.doubt), ExrChannels::single});
     file.attributes = {{"tessera:version", TESSERA_VERSION},
                        {"tessera:settings", reference.settings},
                        {"tessera:camera", reference.camera},
@@ -153,7 +153,7 @@ void write_reference(const std::filesystem::path& path, const ReferenceImage& re
 }
 
 bool is_reference(const std::filesystem::path& path) {
-    return read_exr_attributes(path).count(reference_attribute) > 0;
+    return is_exr_file(path) && read_exr_attributes(path).count(reference_attribute) > 0;
 }
 
 ReferenceImage read_reference(const std::filesystem::path& path) {

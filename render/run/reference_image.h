@@ -92,8 +92,8 @@ std::uint32_t checksum_of(const ReferenceImage& reference);
 /// checksums. Throws std::runtime_error that names the file.
 void write_reference(const std::filesystem::path& path, const ReferenceImage& reference);
 
-/// Returns whether the header of an EXR file is that of a reference. Reads no pixels. Throws std::runtime_error
-/// that names the file if it is no EXR file.
+/// Returns whether a file is an EXR file with the header of a reference. Reads no pixels. Throws
+/// std::runtime_error that names the file if it cannot be read.
 bool is_reference(const std::filesystem::path& path);
 
 /// Reads a file of write_reference(). Throws std::runtime_error that names any other file.

@@ -163,7 +163,7 @@ TEST_F(BrokenFile, DetectsTheImageFormatFromTheContents) {
     for (const char* name : {"a.pic", "a.png", "a.hdr"}) {
         folder.write(name, softimage);
         EXPECT_THAT(error_of_texture(name),
-                    testing::HasSubstr("it is not an OpenEXR, Radiance, PNG, JPEG, BMP or TGA"));
+                    testing::HasSubstr("it is not an OpenEXR, Radiance, PFM, PNG, JPEG, BMP or TGA"));
     }
 }
 
@@ -172,7 +172,7 @@ TEST_F(BrokenFile, RejectsRadianceRunsThatDoNotFitTheRow) {
     const std::string row = "\x90\x80\x90\x40\x90\x20\x90\x81"; // each channel as a run of 16 bytes
     folder.write("fine.hdr", head + row);
     EXPECT_EQ(error_of_texture("fine.hdr"), "no error");
-    EXPECT_EQ(read_bitmap(folder.path() / "fine.hdr", true, [] { return true; }).floats.at(15),
+    EXPECT_EQ(read_bitmap(folder.path() / "fine.hdr", true, [] { return true; }).bitmap.floats.at(15),
               Rgb(1, 0.5f, 0.25f));
     for (const std::string& broken : {head + std::string("\0", 1), head + "\x91" + row, head + row.substr(0, 5),
                                       head.substr(0, 40), std::string("#?RADIANCE\n\n-Y 1 +X 1\nabcd")}) {

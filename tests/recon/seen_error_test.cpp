@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -71,7 +72,9 @@ TEST(Psnr, IsThatOfSrgbValues) {
     // The sRGB values of 0.5 and 0.4 are 0.7354 and 0.6652.
     const RgbImage a(4, 4, Rgb(0.5f)), b(4, 4, Rgb(0.4f));
     EXPECT_NEAR(psnr(a, b, b), -20 * std::log10(0.735357 - 0.665185), 1e-3);
-    EXPECT_TRUE(std::isnan(psnr(a, a, a)));
+    EXPECT_EQ(psnr(a, a, a), std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(std::isnan(psnr(RgbImage(4, 4, Rgb(0.45f)), a, b)))
+        << "the product of the differences is negative";
 }
 
 /// With two references their noise cancels, and PSNR shows the noise of the picture only.

@@ -1,3 +1,4 @@
+#include "render/io/picture_file.h"
 #include "render/run/first_hits.h"
 #include "render/run/reference_image.h"
 #include "render/run/thread_pool.h"
@@ -22,8 +23,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds wake_interval(100); // shortest time between two progress reports
 
+/// Reads the picture of a file of any format, and the halves of a reference.
 std::shared_ptr<const Reference> load_reference(const std::filesystem::path& file, const ReadProgress& watch) {
-    const ExrFile exr = read_exr(file, watch, {"", half_names[0], half_names[1]});
+    if (!is_exr_file(file))
+        return make_reference(file.string(), read_picture(file, {}, watch).image, {}, {});
+    ExrFile exr = read_exr(file, watch, {"", half_names[0], half_names[1]});
     std::array<RgbImage, 2> halves;
     for (std::size_t i = 0; i < halves.size(); ++i)
         if (const RgbImage* half = find_layer(exr, half_names[i]))

@@ -1,6 +1,7 @@
 #include "ui/state/companions.h"
 
 #include "recon/metrics/metrics.h"
+#include "recon/metrics/valid_pixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,21 +64,6 @@ bool has_halves(const Reference& reference) {
     return !reference.halves[0].empty();
 }
 
-/// Returns the indices of pixels at which some image is not finite.
-std::vector<std::size_t> not_finite(std::initializer_list<const RgbImage*> images) {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < (*images.begin())->size(); ++i)
-        if (!std::all_of(images.begin(), images.end(), [&](const RgbImage* m) { return is_finite(m->data()[i]); }))
-            found.push_back(i);
-    return found;
-}
-
-RgbImage blackened(RgbImage image, const std::vector<std::size_t>& pixels) {
-    for (std::size_t i : pixels)
-        image.data()[i] = Rgb(0);
-    return image;
-}
-
 FloorFreeError measure(const RgbImage& picture, const RgbImage& a, const RgbImage& b, bool halves) {
     if (halves)
         return measure_floor_free_error(picture, a, b);
@@ -92,7 +78,7 @@ std::optional<PictureError> error_to(const Reference& reference, const RgbImage&
     const RgbImage& b = halves ? reference.halves[1] : reference.image;
     if (picture.empty() || !same_size(picture, a))
         return std::nullopt;
-    const std::vector<std::size_t> excluded = not_finite({&picture, &a, &b});
+    const std::vector<std::size_t> excluded = invalid_pixels({&picture, &a, &b});
     if (excluded.size() == picture.size())
         return std::nullopt;
     // Pixels that are black in both images add nothing to the sum. Dividing by `share` excludes them from the
@@ -127,7 +113,8 @@ std::shared_ptr<const Reference> make_reference(std::string name, RgbImage image
         reference->halves = std::move(halves);
     const Reference& r = *reference;
     reference->not_finite =
-        (has_halves(r) ? not_finite({&r.image, &r.halves[0], &r.halves[1]}) : not_finite({&r.image})).size();
+        (has_halves(r) ? invalid_pixels({&r.image, &r.halves[0], &r.halves[1]}) : invalid_pixels({&r.image}))
+            .size();
     double sum = 0;
     for (const Rgb& pixel : r.image)
         sum += is_finite(pixel) ? static_cast<double>(luminance(pixel)) : 0;
