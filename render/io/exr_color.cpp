@@ -63,7 +63,10 @@ std::optional<glm::dmat3> rec709_of_primaries(const Chromaticities& c) {
     if (is_near(c.red, rec709.red) && is_near(c.green, rec709.green) && is_near(c.blue, rec709.blue) &&
         is_near(c.white, rec709.white))
         return {};
-    const glm::dmat3 to_xyz = xyz_of_primaries(c), from_xyz = glm::inverse(xyz_of_primaries(rec709));
+    const glm::dmat3 from_xyz = glm::inverse(xyz_of_primaries(rec709));
+    if (is_near(c.red, {1, 0}) && is_near(c.green, {0, 1}) && is_near(c.blue, {0, 0}))
+        return from_xyz;
+    const glm::dmat3 to_xyz = xyz_of_primaries(c);
     const glm::dvec3 white = to_xyz * glm::dvec3(1), target = xyz_of(rec709.white) / rec709.white.y;
     const glm::dmat3 result = from_xyz * adaptation(white, target) * to_xyz;
     if (!is_finite(result))

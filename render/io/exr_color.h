@@ -21,8 +21,9 @@ struct Chromaticities {
 glm::dmat3 xyz_of_primaries(const Chromaticities& c);
 
 /// Returns the matrix from linear RGB of these primaries to RGB of Rec. 709. White stays white, by adaptation of
-/// its XYZ in the cone space of Bradford [Lindbloom, "Chromatic Adaptation"]. Empty: the primaries equal Rec. 709
-/// to 0.001. Throws as xyz_of_primaries() does.
+/// its XYZ in the cone space of Bradford [Lindbloom, "Chromatic Adaptation"]. With the primaries of CIE XYZ the
+/// values are X, Y and Z whatever the white, as programs write them. Empty: the primaries equal Rec. 709 to 0.001.
+/// Throws as xyz_of_primaries() does.
 std::optional<glm::dmat3> rec709_of_primaries(const Chromaticities& c);
 
 /// Converts Y, RY = (R - Y) / Y and BY = (B - Y) / Y to R, G and B [OpenEXR, ImfRgbaYca.h].

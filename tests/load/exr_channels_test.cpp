@@ -195,18 +195,20 @@ TEST_F(ExrChannelNames, OtherPrimariesAreConverted) {
     EXPECT_THAT(refusal(), HasSubstr("chromaticities in its header span no colours"));
 }
 
-/// Primaries X, Y and Z with a white of D65: (1, 1, 1) is white, as OpenEXR's own matrices have it.
-TEST_F(ExrChannelNames, OfPrimariesXyzAreScaledToTheirWhite) {
-    const Imf::Chromaticities xyz({1, 0}, {0, 1}, {0, 0}, {0.31271f, 0.32902f});
-    write_test_exr(file, {{constant_channels({{"R", 0.28f}, {"G", 0.29f}, {"B", 0.51f}}),
-                           "",
-                           {{0, 0}, {7, 5}},
-                           {{0, 0}, {7, 5}},
-                           &xyz}});
-    const Imath::V3f expected =
-        Imath::V3f(0.28f, 0.29f, 0.51f) * (Imf::RGBtoXYZ(xyz, 1) * Imf::XYZtoRGB(Imf::Chromaticities(), 1));
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(pixel()[c], expected[c], 1e-3);
+/// R, G and B with the primaries of CIE XYZ are X, Y and Z, whatever the white in the header.
+TEST_F(ExrChannelNames, WithPrimariesOfXyzAreXyz) {
+    write(Values{{"X", 0.28f}, {"Y", 0.29f}, {"Z", 0.51f}});
+    const Rgb expected = pixel();
+    for (const Imath::V2f white : {Imath::V2f(0.31271f, 0.32902f), Imath::V2f(1 / 3.0f, 1 / 3.0f)}) {
+        const Imf::Chromaticities xyz({1, 0}, {0, 1}, {0, 0}, white);
+        write_test_exr(file, {{constant_channels({{"R", 0.28f}, {"G", 0.29f}, {"B", 0.51f}}),
+                               "",
+                               {{0, 0}, {7, 5}},
+                               {{0, 0}, {7, 5}},
+                               &xyz}});
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(pixel()[c], expected[c], 1e-3) << white;
+    }
 }
 
 TEST_F(ExrChannelNames, OfADeepImageAreNotSupported) {
