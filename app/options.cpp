@@ -26,6 +26,7 @@ namespace {
 struct Words {
     std::string scene, camera, methods, norms, clock = "wall", sample;
     std::vector<std::string> definitions;
+    bool strict = false;
     glm::ivec2 size{0}, window{0}; ///< 0: not given
     int spp = 0;
     double time = 0;
@@ -35,13 +36,14 @@ struct Words {
     RenderSettings settings;
     ReconstructionSettings reconstruction;
 
-    SceneSource source() const { return {scene, parse_variables(definitions), camera}; }
+    SceneSource source() const { return {scene, parse_variables(definitions), camera, strict}; }
 };
 
 void add_scene(CLI::App& command, Words& words, bool required) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required(required);
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
+    add_strict(command, words.strict);
 }
 
 void add_settings(CLI::App& command, Words& words) {
@@ -197,7 +199,8 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         // The camera and the variables apply to one scene, under any of its names.
         std::error_code ignored;
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
-        return origin_of(same ? SceneSource{file, source.variables, source.camera} : SceneSource{file, {}, {}},
+        return origin_of(same ? SceneSource{file, source.variables, source.camera, source.strict}
+                              : SceneSource{file, {}, {}},
                          threads);
     };
     options.panes = panes_of(command, words);

@@ -1,5 +1,6 @@
 #include "render/io/text.h"
 #include "render/load/load_context.h"
+#include "render/load/spectrum_files.h"
 
 #include <algorithm>
 #include <cctype>
@@ -107,6 +108,8 @@ private:
             include(document, node);
         else if (element.tag() == "path" && depth == 1)
             files_.add_folder(element);
+        else
+            expand_spectrum_file(element, node, files_, notes_);
     }
 
     void include(XmlDocument& document, pugi::xml_node node) {
