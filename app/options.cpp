@@ -43,11 +43,11 @@ void add_scene(CLI::App& command, Words& words, bool required) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required(required);
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
-    add_strict(command, words.strict);
 }
 
 void add_settings(CLI::App& command, Words& words) {
     add_picture_options(command, {words.size, words.settings, words.reconstruction, words.threads});
+    add_strict(command, words.strict);
 }
 
 int render(const CLI::App& command, const Words& words, RenderOptions options) {
@@ -258,6 +258,7 @@ int run_command_line(int argc, char** argv) {
     CLI::App& info =
         *app.add_subcommand("info", "print the contents of a scene, and its parts that are not supported");
     add_scene(info, info_words, true);
+    add_strict(info, info_words.strict);
     group_help(app);
     std::vector<const char*> words(argv, argv + argc);
     const bool is_alone = argc > 1 && (extension_of(argv[1]) == ".xml" || std::string_view(argv[1]) == "--follow");

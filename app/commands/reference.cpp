@@ -35,8 +35,8 @@ void add_reference(CLI::App& app, ReferenceArguments& words) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
-    add_strict(command, words.strict);
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
+    add_strict(command, words.strict);
     add_alpha(command, recipe.reconstruction);
     command.get_option("--seed")->description("seed of the first half; the second half has the next seed");
     add_method(command, recipe.settings.method);

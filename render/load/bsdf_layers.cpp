@@ -32,7 +32,7 @@ void set_back(Material& front, Material back, const Properties& p) {
         p.note("the mask on the back of 'twosided' is left out");
     back.opacity.reset();
     back.back.reset();
-    back.two_sided = true;
+    back.two_sided = false; // the front's is that of the material
     front.back = std::make_shared<const Material>(std::move(back));
 }
 
@@ -96,6 +96,11 @@ void set_relief(const LoadContext& context, Properties& p, Material& material, R
     if (material.relief)
         p.note("the bump or normal map inside this one is left out");
     material.relief = relief;
+    if (material.back) {
+        Material back = *material.back;
+        back.relief = relief;
+        material.back = std::make_shared<const Material>(std::move(back));
+    }
 }
 
 } // namespace

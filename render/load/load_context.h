@@ -19,6 +19,8 @@
 #include <tuple>
 #include <vector>
 
+#include <pugixml.hpp>
+
 namespace tessera {
 
 /// Finds the files that a scene names. It searches the folder of the naming document, then the folders of
@@ -147,5 +149,12 @@ private:
 /// `given` that the scene does not use.
 void expand_scene(XmlDocument& document, const SceneVariables& given, FileSearch& files,
                   std::vector<LoadNote>& notes);
+
+/// Replaces the file of a <spectrum filename="..."> by its samples, as an attribute `value`. Replaces the file of
+/// a <string name="filename"> in a <spectrum type="irregular"> by parameters `wavelengths` and `values`. Each line
+/// of such a file (.spd) is a wavelength in nm and a value; "#" begins a comment. Other elements are left as they
+/// are. A file that is missing or cannot be read has an error note, and the element keeps its file name.
+void expand_spectrum_file(const XmlElement& element, pugi::xml_node node, const FileSearch& files,
+                          std::vector<LoadNote>& notes);
 
 } // namespace tessera

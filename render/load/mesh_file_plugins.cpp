@@ -1,5 +1,4 @@
 #include "render/io/files.h"
-#include "render/load/mtl_materials.h"
 #include "render/load/plugins.h"
 #include "render/load/shape_readers.h"
 #include "render/mesh/obj_scan.h"

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <iterator>
 #include <set>
 #include <string>
 #include <tuple>
@@ -162,7 +161,7 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
     order_notes(context.notes, document.documents());
     if (strict)
         throw_first_error(context.notes, document.documents());
-    result.meshes.assign(std::move_iterator(context.meshes.begin()), std::move_iterator(context.meshes.end()));
+    result.meshes.assign(context.meshes.begin(), context.meshes.end());
     result.description = std::move(context.scene);
     result.notes = std::move(context.notes);
     return result;

@@ -1,7 +1,6 @@
-#include "render/load/mtl_materials.h"
-
 #include "render/io/files.h"
 #include "render/load/plugins.h"
+#include "render/load/shape_readers.h"
 
 #include <algorithm>
 #include <cmath>

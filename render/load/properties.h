@@ -91,7 +91,8 @@ Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& n
                SpectrumKind what = SpectrumKind::reflectance);
 
 /// Returns the product of a <transform>'s steps (matrix, lookat, translate, rotate, scale). The first step acts
-/// on a point first. The first key stands for an <animation>. Invalid steps are left out, with error notes.
+/// on a point first. An <animation> has the transform of its first key. Invalid steps are left out, with error
+/// notes.
 glm::mat4 read_transform(const XmlElement& transform, std::vector<LoadNote>& notes);
 
 /// Returns the rotation (or rotation and mirroring) in a transform, by Gram-Schmidt; empty: the transform is

@@ -1,6 +1,5 @@
 #include "render/io/text.h"
 #include "render/load/load_context.h"
-#include "render/load/spectrum_files.h"
 
 #include <algorithm>
 #include <cctype>

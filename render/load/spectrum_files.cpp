@@ -1,7 +1,6 @@
-#include "render/load/spectrum_files.h"
-
 #include "render/io/files.h"
 #include "render/io/text.h"
+#include "render/load/load_context.h"
 
 #include <optional>
 #include <sstream>

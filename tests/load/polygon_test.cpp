@@ -4,6 +4,7 @@
 #include "tests/load/mesh_area.h"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
