@@ -26,6 +26,7 @@ namespace {
 struct Words {
     std::string scene, camera, methods, norms, clock = "wall", sample;
     std::vector<std::string> definitions;
+    bool strict = false;
     glm::ivec2 size{0}, window{0}; ///< 0: not given
     int spp = 0;
     double time = 0;
@@ -35,7 +36,7 @@ struct Words {
     RenderSettings settings;
     ReconstructionSettings reconstruction;
 
-    SceneSource source() const { return {scene, parse_variables(definitions), camera}; }
+    SceneSource source() const { return {scene, parse_variables(definitions), camera, strict}; }
 };
 
 void add_scene(CLI::App& command, Words& words, bool required) {
@@ -46,6 +47,7 @@ void add_scene(CLI::App& command, Words& words, bool required) {
 
 void add_settings(CLI::App& command, Words& words) {
     add_picture_options(command, {words.size, words.settings, words.reconstruction, words.threads});
+    add_strict(command, words.strict);
 }
 
 int render(const CLI::App& command, const Words& words, RenderOptions options) {
@@ -181,7 +183,8 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         // The camera and the variables apply to one scene, under any of its names.
         std::error_code ignored;
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
-        return origin_of(same ? SceneSource{file, source.variables, source.camera} : SceneSource{file, {}, {}},
+        return origin_of(same ? SceneSource{file, source.variables, source.camera, source.strict}
+                              : SceneSource{file, {}, {}},
                          threads);
     };
     options.panes = panes_of(command, words);
@@ -239,6 +242,7 @@ int run_command_line(int argc, char** argv) {
     CLI::App& info =
         *app.add_subcommand("info", "print the contents of a scene, and its parts that are not supported");
     add_scene(info, info_words, true);
+    add_strict(info, info_words.strict);
     group_help(app);
     std::vector<const char*> words(argv, argv + argc);
     const bool is_alone = argc > 1 && (extension_of(argv[1]) == ".xml" || std::string_view(argv[1]) == "--follow");

@@ -117,12 +117,13 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
     LoadedScene loaded = with_memory_for("the scene " + to_string(source), [&] {
         return source.file.empty()
                    ? parse_mitsuba_xml(cornell_box_xml, "cornell-box.xml", source.variables, parallel_for,
-                                       progress)
+                                       progress, source.strict)
                    : load_mitsuba_xml(source.file, source.variables, parallel_for, progress, source.strict);
     });
     loaded.description.camera = camera.value_or(loaded.description.camera);
     OpenedScene opened;
     opened.notes = std::move(loaded.notes);
+    opened.meshes = std::move(loaded.meshes);
     opened.parse_seconds = loaded.parse_seconds;
     opened.file_seconds = loaded.file_seconds;
     const double cpu_after_load = process_cpu_seconds();

@@ -2,6 +2,7 @@
 
 #include "render/io/files.h"
 #include "render/io/text.h"
+#include "render/load/mitsuba_xml.h"
 #include "render/load/scene_source.h"
 #include "render/run/thread_pool.h"
 #include "ui/jobs/scene_load.h"
@@ -23,7 +24,8 @@ void print_notes(const std::vector<LoadNote>& notes);
 struct OpenedScene {
     std::shared_ptr<const Scene> scene;
     std::vector<LoadNote> notes;
-    double parse_seconds = 0; ///< wall time, like the next two
+    std::vector<MeshListing> meshes; ///< of mesh files
+    double parse_seconds = 0;        ///< wall time, like the next two
     double file_seconds = 0;
     double bvh_seconds = 0;
     double load_cpu_seconds = 0; ///< process CPU time, without the BVH

@@ -112,6 +112,12 @@ CLI::Option* limit_to_seconds(CLI::Option* option) {
     return limit(option, 1e-3, most_seconds);
 }
 
+CLI::Option* add_strict(CLI::App& command, bool& strict) {
+    return command.add_flag("--strict", strict,
+                            "fail if a mesh, texture, normal or transform is missing or damaged, instead of "
+                            "replacing it");
+}
+
 namespace {
 
 /// Returns the option of a setting: "--rr-delta" for "rr_delta".

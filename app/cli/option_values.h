@@ -42,6 +42,8 @@ CLI::Option* limit(CLI::Option* option, double least, double most);
 CLI::Option* forbid_empty(CLI::Option* option);
 /// Restricts an option to seconds from 0.001 to most_seconds.
 CLI::Option* limit_to_seconds(CLI::Option* option);
+/// Adds --strict, for SceneSource::strict.
+CLI::Option* add_strict(CLI::App& command, bool& strict);
 
 // Options made from the table of settings. The variables that they write to must outlive the command. Each
 // function returns the option, so that a command can change its description.

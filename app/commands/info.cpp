@@ -43,7 +43,8 @@ std::string kind_of(const Material& m) {
     std::string kind = std::visit(Namer(), m.kind);
     if (m.relief)
         kind += m.relief->kind == Relief::Kind::bump ? ", bumpmap" : ", normalmap";
-    return kind + (m.opacity ? ", mask" : "") + (m.two_sided ? ", two-sided" : "");
+    const std::string sides = m.back ? ", with " + kind_of(*m.back) + " behind" : m.two_sided ? ", two-sided" : "";
+    return kind + (m.opacity ? ", mask" : "") + sides;
 }
 
 struct TextureSummary {
@@ -158,6 +159,19 @@ void print_traits(const SceneTraits& traits) {
     fmt::print("  {:<16} {}\n", "environment", traits.environment ? "yes" : "none");
 }
 
+/// Prints what each mesh file has, what of it is not used, and what is damaged.
+void print_meshes(const std::vector<MeshListing>& meshes) {
+    if (!meshes.empty())
+        fmt::print("mesh files\n");
+    for (const MeshListing& mesh : meshes) {
+        fmt::print("  {}: {}\n", mesh.file, fmt::join(mesh.report.contents, ", "));
+        for (const std::string& ignored : mesh.report.ignored)
+            fmt::print("    not used: {}\n", ignored);
+        for (const std::string& error : mesh.report.errors)
+            fmt::print("    error: {}\n", error);
+    }
+}
+
 void print_cost(const OpenedScene& opened, const TextureSummary& textures) {
     const Scene& scene = *opened.scene;
     fmt::print("seconds    {:.3f} XML, {:.3f} meshes and textures, {:.3f} BVH\n", opened.parse_seconds,
@@ -177,6 +191,7 @@ int run_info(const SceneSource& source) {
     fmt::print("{}\n", to_string(source));
     print_scene(*opened.scene, textures);
     print_cost(opened, textures);
+    print_meshes(opened.meshes);
     print_traits(traits_of(opened.scene->description()));
     const SceneNotes notes = group_notes(opened.notes);
     fmt::print("{}\n", notes.empty() ? "nothing was ignored or replaced" : "ignored, replaced or approximated:");

@@ -35,9 +35,8 @@ void add_reference(CLI::App& app, ReferenceArguments& words) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
     command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
-    command.add_flag("--strict", words.strict,
-                     "fail if the file of a texture or mesh is missing, instead of leaving it out");
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
+    add_strict(command, words.strict);
     add_alpha(command, recipe.reconstruction);
     command.get_option("--seed")->description("seed of the first half; the second half has the next seed");
     add_method(command, recipe.settings.method);
@@ -87,10 +86,9 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
     fmt::print("{}: by {}; relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(),
                to_string(origin_of(reference)), error.relative_mse, error.standard_error);
     if (const double fraction = untrusted_fraction(reference.doubt); fraction > 0)
-        fmt::print(
-            "{:.2g} % of its pixels are unreliable: their error is above {:g} %, their brightest "
-            "sample is a firefly, or no sample found radiance (layer doubt)\n",
-            100 * fraction, 100 * untrusted_threshold);
+        fmt::print("{:.2g} % of its pixels are unreliable: their error is above {:g} %, their brightest "
+                   "sample is a firefly, or no sample found radiance (layer doubt)\n",
+                   100 * fraction, 100 * untrusted_threshold);
 }
 
 } // namespace

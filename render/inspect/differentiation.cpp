@@ -103,7 +103,7 @@ bool scatters_by_texture(const ShapeRecord& shape) {
         return false;
     if (shape.has_frame_along_u && shape.normals)
         return true; // the frame follows the texture's u
-    if (shape.material->relief)
+    if (shape.material->relief || shape.material->back)
         return true;
     const auto& kind = shape.material->kind;
     if (const auto* m = std::get_if<DiffuseMaterial>(&kind))

@@ -65,14 +65,18 @@ public:
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
-    bool read_header() {
+    /// Makes rows of RGBA if there is alpha and `keeps_alpha`, otherwise of RGB.
+    bool read_header(bool keeps_alpha = false) {
         if (setjmp(png_jmpbuf(png_)) != 0)
             return false;
         png_set_user_limits(png_, max_image_edge, max_image_edge);
         png_set_read_fn(png_, this, read);
         png_read_info(png_, info_);
         png_set_strip_16(png_);
-        png_set_strip_alpha(png_);
+        if (keeps_alpha)
+            png_set_tRNS_to_alpha(png_);
+        else
+            png_set_strip_alpha(png_);
         png_set_palette_to_rgb(png_);
         png_set_expand_gray_1_2_4_to_8(png_);
         png_set_gray_to_rgb(png_);
@@ -155,6 +159,26 @@ ByteImage parse_png(std::string_view bytes, const std::function<bool()>& keep_re
             if (!reader.read_row(image.rgb.data() + row_bytes * static_cast<std::size_t>(y)))
                 fail(reader.error());
         }
+    return image;
+}
+
+ByteImage parse_png_alpha(std::string_view bytes, const std::function<bool()>& keep_reading) {
+    PngReader reader(bytes);
+    if (!reader.read_header(true))
+        fail(reader.error());
+    ByteImage image = image_of(reader.width(), reader.height(), bytes.size());
+    const std::size_t row_bytes = 4 * static_cast<std::size_t>(image.width);
+    if (reader.row_bytes() != row_bytes)
+        fail("it has no alpha channel");
+    std::vector<std::uint8_t> rgba(row_bytes * static_cast<std::size_t>(image.height));
+    for (int pass = 0; pass < reader.passes(); ++pass)
+        for (int y = 0; y < image.height; ++y) {
+            check_not_cancelled(keep_reading);
+            if (!reader.read_row(rgba.data() + row_bytes * static_cast<std::size_t>(y)))
+                fail(reader.error());
+        }
+    for (std::size_t i = 0; i < image.rgb.size(); ++i)
+        image.rgb[i] = rgba[i / 3 * 4 + 3];
     return image;
 }
 

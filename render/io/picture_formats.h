@@ -35,6 +35,8 @@ struct ByteImage {
 // states them. All poll `keep_reading`. They throw std::runtime_error with the reason, also for sizes beyond
 // check_image_size() and once `keep_reading` returns false, and OutOfMemory.
 ByteImage parse_png(std::string_view bytes, const std::function<bool()>& keep_reading);
+/// Decodes the alpha channel of a PNG image, repeated in red, green and blue. Throws if there is none.
+ByteImage parse_png_alpha(std::string_view bytes, const std::function<bool()>& keep_reading);
 ByteImage parse_jpeg(std::string_view bytes, const std::function<bool()>& keep_reading);
 /// Decodes bytes with the signature of BMP as BMP, and all others as TGA.
 ByteImage parse_bmp_or_tga(std::string_view bytes, const std::function<bool()>& keep_reading);

@@ -57,7 +57,8 @@ std::string FilePosition::to_string() const {
 
 LoadError::LoadError(const FilePosition& where, const std::string& text, const std::string& source_line)
     : std::runtime_error(where.to_string() + ": " + text +
-                         (source_line.empty() ? std::string() : with_caret(source_line, where.column))) {}
+                         (source_line.empty() ? std::string() : with_caret(source_line, where.column))),
+      where_(where), text_(text) {}
 
 namespace {
 
@@ -89,18 +90,70 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
+void append_utf8(std::string& text, char32_t code) {
+    const auto append = [&](char32_t byte) { text += static_cast<char>(byte); };
+    const auto append_rest = [&](int shift) { append(0x80 | (code >> shift & 0x3f)); };
+    if (code < 0x80) {
+        append(code);
+    } else if (code < 0x800) {
+        append(0xc0 | code >> 6);
+        append_rest(0);
+    } else if (code < 0x10000) {
+        append(0xe0 | code >> 12);
+        append_rest(6);
+        append_rest(0);
+    } else {
+        append(0xf0 | code >> 18);
+        append_rest(12);
+        append_rest(6);
+        append_rest(0);
+    }
+}
+
 std::string latin1_to_utf8(std::string_view text) {
     std::string result;
     result.reserve(text.size() + text.size() / 8);
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (code < 0x80) {
-            result += c;
-        } else {
-            result += static_cast<char>(0xc0 | code >> 6);
-            result += static_cast<char>(0x80 | (code & 0x3f));
+    for (const char c : text)
+        append_utf8(result, static_cast<unsigned char>(c));
+    return result;
+}
+
+enum class ByteOrder { little, big };
+
+/// Returns the byte order of a text in UTF-16; empty: another encoding.
+std::optional<ByteOrder> utf16_order(std::string_view bytes) {
+    using namespace std::string_view_literals;
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("<\0"sv))
+        return ByteOrder::little;
+    if (bytes.starts_with("\xfe\xff") || bytes.starts_with("\0<"sv))
+        return ByteOrder::big;
+    return {};
+}
+
+std::string utf16_to_utf8(std::string_view text, ByteOrder order) {
+    constexpr char32_t byte_order_mark = 0xfeff;
+    const auto is_between = [](char32_t code, char32_t first, char32_t last) {
+        return code >= first && code <= last;
+    };
+    const auto unit = [&](std::size_t i) -> char32_t {
+        const auto first = static_cast<unsigned char>(text[i]), second = static_cast<unsigned char>(text[i + 1]);
+        return order == ByteOrder::little ? second << 8 | first : first << 8 | second;
+    };
+    std::string result;
+    result.reserve(text.size() / 2);
+    for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+        char32_t code = unit(i);
+        if (is_between(code, 0xd800, 0xdbff) && i + 3 < text.size() && is_between(unit(i + 2), 0xdc00, 0xdfff)) {
+            code = 0x10000 + ((code - 0xd800) << 10) + (unit(i + 2) - 0xdc00);
+            i += 2;
+        } else if (is_between(code, 0xd800, 0xdfff)) {
+            throw std::runtime_error("the file is not valid UTF-16");
         }
+        if (code != byte_order_mark || i > 0)
+            append_utf8(result, code);
     }
+    if (text.size() % 2 != 0)
+        throw std::runtime_error("the file is not valid UTF-16");
     return result;
 }
 
@@ -122,10 +175,10 @@ std::string lower_case(std::string_view text) {
 }
 
 Utf8Text to_utf8(std::string bytes) {
-    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
-        throw std::runtime_error("the file is in UTF-16; scenes are read in UTF-8");
+    if (const std::optional<ByteOrder> order = utf16_order(bytes))
+        bytes = utf16_to_utf8(bytes, *order);
     if (bytes.find('\0') != std::string::npos)
-        throw std::runtime_error("there are NUL bytes in the file; scenes are text in UTF-8");
+        throw std::runtime_error("there are NUL bytes in the file; scenes are text in UTF-8 or UTF-16");
     if (bytes.starts_with("\xef\xbb\xbf"))
         bytes.erase(0, 3);
     if (is_utf8(bytes))

@@ -31,13 +31,21 @@ struct LoadNote {
 class LoadError : public std::runtime_error {
 public:
     LoadError(const FilePosition& where, const std::string& text, const std::string& source_line = {});
+
+    /// Returns an error note about what is used in place of the thing that cannot be read, as `consequence` says.
+    LoadNote note(const std::string& consequence) const { return {where_, text_ + "; " + consequence, true}; }
+
+private:
+    FilePosition where_;
+    std::string text_;
 };
 
 /// Reads a scene file's bytes. Throws LoadError.
 std::string read_text(const std::filesystem::path& file);
 
 /// A text in UTF-8 without byte order mark, and whether it was converted from Latin-1, as which invalid UTF-8
-/// is read. to_utf8() throws std::runtime_error for UTF-16 and for NUL bytes.
+/// is read. UTF-16 is recognised by its byte order mark, or by the zero byte of a leading "<". to_utf8() throws
+/// std::runtime_error for invalid UTF-16 and for NUL bytes.
 struct Utf8Text {
     std::string text;
     bool was_latin1 = false;

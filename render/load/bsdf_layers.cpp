@@ -20,12 +20,38 @@ Material nested_bsdf(LoadContext& context, Properties& p) {
     return read_bsdf(context, *nested);
 }
 
+namespace {
+
+/// Makes `back` the material of the back. The opacity of the front is that of both sides.
+void set_back(Material& front, Material back, const Properties& p) {
+    if (back.is_transparent()) {
+        p.note("the transparent back of 'twosided' is left out");
+        return;
+    }
+    if (back.opacity)
+        p.note("the mask on the back of 'twosided' is left out");
+    back.opacity.reset();
+    back.back.reset();
+    back.two_sided = false; // the front's is that of the material
+    front.back = std::make_shared<const Material>(std::move(back));
+}
+
+} // namespace
+
 Material read_twosided(LoadContext& context, Properties& p) {
-    Material material = nested_bsdf(context, p);
-    if (material.is_transparent())
+    const std::vector<XmlElement> nested = context.take_nested(p, "bsdf");
+    if (nested.empty())
+        p.element().fail("'twosided' needs a nested <bsdf>");
+    if (nested.size() > 2)
+        p.note(nested[2], "only the first two <bsdf> in 'twosided' are used");
+    Material material = read_bsdf(context, nested[0]);
+    if (material.is_transparent()) {
         p.note("'twosided' has no effect on a transparent material");
-    else
-        material.two_sided = true;
+        return material;
+    }
+    material.two_sided = true;
+    if (nested.size() > 1)
+        set_back(material, read_bsdf(context, nested[1]), p);
     return material;
 }
 
@@ -70,6 +96,11 @@ void set_relief(const LoadContext& context, Properties& p, Material& material, R
     if (material.relief)
         p.note("the bump or normal map inside this one is left out");
     material.relief = relief;
+    if (material.back) {
+        Material back = *material.back;
+        back.relief = relief;
+        material.back = std::make_shared<const Material>(std::move(back));
+    }
 }
 
 } // namespace
@@ -102,8 +133,11 @@ Material without_adapters(Material material, const Properties& p) {
         p.note("the mask inside '" + p.type() + "' is left out");
     if (material.relief)
         p.note("the bump or normal map inside '" + p.type() + "' is left out");
+    if (material.back)
+        p.note("the second <bsdf> of 'twosided' inside '" + p.type() + "' is left out");
     material.opacity.reset();
     material.relief.reset();
+    material.back.reset();
     return material;
 }
 

@@ -105,7 +105,9 @@ Rgb color_of_arrays(Properties& p, SpectrumKind what) {
 Rgb spectrum_plugin(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes, SpectrumKind what) {
     Properties p(element, notes);
     Rgb color = fallback;
-    if (p.type() == "uniform") {
+    if (p.has("filename")) { // expand_spectrum_file() could not read it
+        p.ignore_all();
+    } else if (p.type() == "uniform") {
         color = Rgb(p.number("value", 1));
     } else if (p.type() == "rgb" || p.type() == "srgb" || p.type() == "d65") {
         color = p.color("color", Rgb(1)) * p.number("scale", 1); // D65 is the white of sRGB
@@ -137,10 +139,8 @@ Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& n
                      ">");
     if (element.tag() == "spectrum" && element.has("type"))
         return spectrum_plugin(element, fallback, notes, what);
-    if (element.tag() == "spectrum" && !element.has("value") && element.has("filename")) {
-        notes.push_back({element.position(), "spectra in files are not read; a default is used instead"});
-        return fallback;
-    }
+    if (element.tag() == "spectrum" && !element.has("value") && element.has("filename"))
+        return fallback; // expand_spectrum_file() could not read it
     if (element.tag() == "blackbody") {
         notes.push_back({element.position(), "the spectrum is replaced by its linear sRGB colour"});
         return black_body(element);

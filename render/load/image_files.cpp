@@ -33,6 +33,14 @@ Bitmap bitmap_of(ByteImage image, bool srgb) {
     return {image.width, image.height, srgb, std::move(image.rgb), {}};
 }
 
+/// Copies one channel to the others.
+void repeat(Bitmap& bitmap, int channel) {
+    for (std::size_t i = 0; i + 2 < bitmap.bytes.size(); i += 3)
+        std::fill_n(&bitmap.bytes[i], 3, bitmap.bytes[i + static_cast<std::size_t>(channel)]);
+    for (Rgb& color : bitmap.floats)
+        color = Rgb(color[channel]);
+}
+
 } // namespace
 
 LoadedBitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,
@@ -46,8 +54,18 @@ LoadedBitmap parse_bitmap(std::string_view encoded, std::string_view extension, 
     return {bitmap_of(std::move(picture.floats.image)), std::move(notes)};
 }
 
-LoadedBitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading) {
-    return parse_bitmap(read_bytes(file), extension_of(file), srgb, keep_reading);
+LoadedBitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading,
+                         BitmapChannel channel) {
+    const std::string bytes = read_bytes(file);
+    if (channel == BitmapChannel::alpha) {
+        if (!is_png(bytes))
+            throw std::runtime_error("the alpha channel is read from PNG pictures only");
+        return {bitmap_of(parse_png_alpha(bytes, keep_reading), srgb), {}};
+    }
+    LoadedBitmap loaded = parse_bitmap(bytes, extension_of(file), srgb, keep_reading);
+    if (channel != BitmapChannel::all)
+        repeat(loaded.bitmap, channel == BitmapChannel::red ? 0 : channel == BitmapChannel::green ? 1 : 2);
+    return loaded;
 }
 
 } // namespace tessera

@@ -44,10 +44,18 @@ std::vector<fs::path> FileSearch::candidates_for(const XmlElement& element, cons
         element.fail("a scene in memory has no files beside it, such as '" + name + "'", attribute);
     if (name.find('\0') != std::string::npos || name.empty())
         element.fail("'" + name + "' is not a file name", attribute);
-    std::vector<fs::path> candidates{*element.document().folder() / name};
-    for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
-        candidates.push_back(*folder / name);
-    candidates.push_back(*scene_->folder() / name);
+    std::vector<fs::path> candidates;
+    const auto add = [&](const std::string& path) {
+        candidates.push_back(*element.document().folder() / path);
+        for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
+            candidates.push_back(*folder / path);
+        candidates.push_back(*scene_->folder() / path);
+    };
+    add(name);
+    std::string with_slashes = name;
+    std::ranges::replace(with_slashes, '\\', '/');
+    if (with_slashes != name)
+        add(with_slashes);
     return candidates;
 }
 
@@ -85,15 +93,27 @@ void FileSearch::add_folder(const XmlElement& path) {
     folders_.push_back(folder);
 }
 
-void FileJobs::add(const XmlElement& where, Read read) {
-    jobs_.push_back({where, std::move(read)});
+namespace {
+
+std::string joined(const std::vector<std::string>& texts) {
+    std::string result;
+    for (const std::string& text : texts)
+        result += (result.empty() ? "" : ", ") + text;
+    return result;
+}
+
+} // namespace
+
+void FileJobs::add(const XmlElement& where, std::string consequence, Read read) {
+    jobs_.push_back({where, std::move(consequence), std::move(read)});
 }
 
 void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes, LoadProgress& progress) const {
     progress.begin(LoadProgress::Stage::files, static_cast<int>(jobs_.size()));
     struct Outcome {
-        std::string note;
+        FileReport report;
         std::optional<std::string> error;
+        std::optional<OutOfMemory> out_of_memory;
     };
     std::vector<Outcome> outcomes(jobs_.size());
     const std::function<bool()> keep_reading = [&] { return !progress.given_up(); };
@@ -102,7 +122,9 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
             return;
         const auto index = static_cast<std::size_t>(i);
         try {
-            outcomes[index].note = jobs_[index].read(keep_reading);
+            outcomes[index].report = jobs_[index].read(keep_reading);
+        } catch (const OutOfMemory& e) {
+            outcomes[index].out_of_memory = e;
         } catch (const std::exception& e) {
             outcomes[index].error = message_of(e);
         }
@@ -112,10 +134,18 @@ void FileJobs::run(const ParallelFor& parallel_for, std::vector<LoadNote>& notes
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
         const XmlElement& where = jobs_[i].where;
         const std::string file = "'" + where.attribute("value") + "'";
+        const std::string failed = "cannot load " + file + ": ";
+        if (outcomes[i].out_of_memory)
+            where.fail(failed + outcomes[i].out_of_memory->what(), "value");
         if (outcomes[i].error)
-            where.fail("cannot load " + file + ": " + *outcomes[i].error, "value");
-        if (!outcomes[i].note.empty())
-            notes.push_back({where.position(), file + ": " + outcomes[i].note});
+            notes.push_back(where.error(failed + *outcomes[i].error, "value").note(jobs_[i].consequence));
+        const FileReport& report = outcomes[i].report;
+        for (const std::string& note : report.notes)
+            notes.push_back({where.position(), file + ": " + note});
+        if (!report.ignored.empty())
+            notes.push_back({where.position(), file + ": not used: " + joined(report.ignored)});
+        for (const std::string& error : report.errors)
+            notes.push_back({where.position("value"), file + ": " + error, true});
     }
 }
 
@@ -155,11 +185,13 @@ std::optional<LoadContext::File> LoadContext::take_file(Properties& properties, 
     const auto parameter = properties.take("filename");
     if (!parameter)
         properties.element().fail("'" + properties.type() + "' needs a 'filename'");
-    if (strict || files.find_optional(*parameter, "value"))
-        return File{*parameter, files.find(*parameter, "value")};
-    notes.push_back({parameter->position("value"),
-                     "there is no file '" + parameter->required("value") + "': " + std::string(consequence),
-                     true});
+    const std::string name = "'" + parameter->required("value") + "'";
+    const std::optional<fs::path> path = files.find_optional(*parameter, "value");
+    std::error_code error;
+    if (path && fs::is_regular_file(*path, error))
+        return File{*parameter, *path};
+    const std::string text = path ? name + " is not a file" : "there is no file " + name;
+    notes.push_back(parameter->error(text, "value").note(std::string(consequence)));
     return {};
 }
 

@@ -123,6 +123,16 @@ void note_encodings(const std::vector<const XmlDocument*>& documents, std::vecto
             notes.push_back({{document->name(), 0, 0}, "the file is not UTF-8; it is read as Latin-1"});
 }
 
+/// Throws LoadError for the first error note.
+void throw_first_error(const std::vector<LoadNote>& notes, const std::vector<const XmlDocument*>& documents) {
+    const auto error = std::ranges::find_if(notes, &LoadNote::is_error);
+    if (error == notes.end())
+        return;
+    const auto document = std::ranges::find(documents, error->where.file, &XmlDocument::name);
+    throw LoadError(error->where, error->text,
+                    document == documents.end() ? "" : (*document)->source_line(error->where.line));
+}
+
 LoadedScene load(std::string text, const std::string& name, std::optional<std::filesystem::path> folder,
                  const SceneVariables& variables, const ParallelFor& parallel_for, LoadProgress* reported,
                  bool strict) {
@@ -131,7 +141,6 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
     LoadProgress& progress = reported ? *reported : unobserved;
     progress.begin(LoadProgress::Stage::xml);
     LoadContext context;
-    context.strict = strict;
     XmlDocument document(std::move(text), name, std::move(folder));
     context.files = FileSearch(&document);
     expand_scene(document, variables, context.files, context.notes);
@@ -150,6 +159,9 @@ LoadedScene load(std::string text, const std::string& name, std::optional<std::f
     result.file_seconds = reading.seconds();
     note_missing_attributes(context);
     order_notes(context.notes, document.documents());
+    if (strict)
+        throw_first_error(context.notes, document.documents());
+    result.meshes.assign(context.meshes.begin(), context.meshes.end());
     result.description = std::move(context.scene);
     result.notes = std::move(context.notes);
     return result;
@@ -163,8 +175,8 @@ LoadedScene load_mitsuba_xml(const std::filesystem::path& file, const SceneVaria
 }
 
 LoadedScene parse_mitsuba_xml(std::string_view xml, const std::string& name, const SceneVariables& variables,
-                              const ParallelFor& parallel_for, LoadProgress* progress) {
-    return load(std::string(xml), name, {}, variables, parallel_for, progress, true);
+                              const ParallelFor& parallel_for, LoadProgress* progress, bool strict) {
+    return load(std::string(xml), name, {}, variables, parallel_for, progress, strict);
 }
 
 } // namespace tessera

@@ -57,12 +57,17 @@ void add_shape(LoadContext& context, const XmlElement& element);
 /// Notes mesh attributes that textures look up and meshes lack. Call after all files are read.
 void note_missing_attributes(LoadContext& context);
 
-/// Reads a <texture>. An unknown type becomes marking_color, with a note.
+/// Reads a <texture>. One of an unknown type becomes marking_color, and one with an invalid parameter becomes
+/// grey, each with an error note.
 Texture read_texture(LoadContext& context, const XmlElement& element);
 
 /// Returns the image file of a plugin. It is read by a job, and shared by all plugins that name it. `srgb`:
-/// whether bytes are sRGB-encoded or linear.
-std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& properties, bool srgb);
+/// whether bytes are sRGB-encoded or linear. A file that is missing or cannot be read is grey, with an error note.
+std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& properties, bool srgb,
+                                               BitmapChannel channel = BitmapChannel::all);
+/// Does the same for a file that was found.
+std::shared_ptr<const Bitmap> bitmap_of_file(LoadContext& context, const LoadContext::File& file, bool srgb,
+                                             BitmapChannel channel = BitmapChannel::all);
 
 /// Reads a parameter that is a colour, a texture or a reference to a texture.
 Texture texture_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback);
@@ -100,7 +105,9 @@ struct LoadedBitmap {
 /// sRGB-encoded or linear as `srgb` says. The format and the layer are those of decode_picture()
 /// (render/io/picture_file.h). Alpha is dropped, grey is repeated. Polls `keep_reading`. Throws
 /// std::runtime_error, also for a size that file or memory cannot hold, and once `keep_reading` returns false.
-LoadedBitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading);
+/// With one `channel`, that one is repeated; alpha is read from PNG only, and throws if there is none.
+LoadedBitmap read_bitmap(const std::filesystem::path& file, bool srgb, const std::function<bool()>& keep_reading,
+                         BitmapChannel channel = BitmapChannel::all);
 
 /// Does the same for an image in memory; `extension` is its file name's.
 LoadedBitmap parse_bitmap(std::string_view encoded, std::string_view extension, bool srgb,

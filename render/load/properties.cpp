@@ -119,15 +119,16 @@ glm::mat4 Properties::transform(std::string_view parameter) {
     const auto element = take(parameter);
     if (!element)
         return glm::mat4(1.0f);
-    expect_tag(*element, {"transform"});
-    return read_transform(*element);
+    return read_transform(*element, *notes_);
 }
 
 glm::mat3 Properties::rotation(std::string_view parameter) {
     const glm::mat4 transform = Properties::transform(parameter);
     const std::optional<glm::mat3> rotation = rotation_of(transform);
-    if (!rotation)
-        take(parameter)->fail("the transform is flat");
+    if (!rotation) {
+        notes_->push_back(take(parameter)->error("the transform is flat").note("it is left out"));
+        return glm::mat3(1.0f);
+    }
     for (int i = 0; i < 3; ++i)
         if (glm::dot(glm::normalize(glm::vec3(transform[i])), (*rotation)[i]) < 0.9999f)
             note(*take(parameter), "only the rotation in the transform is used, not its shear");

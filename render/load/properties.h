@@ -44,10 +44,10 @@ public:
     bool boolean(std::string_view parameter, bool fallback);
     std::string text(std::string_view parameter, const std::string& fallback);
     Rgb color(std::string_view parameter, Rgb fallback);
-    SpectrumKind spectrum_of() const; ///< emission for emitters, reflectance for all other plugins
-    glm::mat4 transform(std::string_view parameter);
-    /// Returns the rotation in a transform. Translation and scaling are dropped, shear is dropped with a note.
-    /// Throws LoadError for a singular transform.
+    SpectrumKind spectrum_of() const;                ///< emission for emitters, reflectance for all other plugins
+    glm::mat4 transform(std::string_view parameter); ///< an invalid one has error notes; see read_transform()
+    /// Returns the rotation in a transform. Translation and scaling are dropped, shear is dropped with a note. A
+    /// singular transform has no effect, with an error note.
     glm::mat3 rotation(std::string_view parameter);
     glm::vec3 point(std::string_view parameter, glm::vec3 fallback);
 
@@ -86,21 +86,22 @@ std::string snake_case(std::string_view name);
 bool is_color(const XmlElement& element);
 
 /// Returns a colour in linear sRGB. A spectrum given by wavelengths or by a plugin of Mitsuba 3 is converted,
-/// with a note. A spectrum in a file becomes the fallback, with a note. Throws LoadError for anything else.
+/// with a note. A spectrum whose file could not be read becomes the fallback. Throws LoadError for anything else.
 Rgb read_color(const XmlElement& element, Rgb fallback, std::vector<LoadNote>& notes,
                SpectrumKind what = SpectrumKind::reflectance);
 
 /// Returns the product of a <transform>'s steps (matrix, lookat, translate, rotate, scale). The first step acts
-/// on a point first. Throws LoadError.
-glm::mat4 read_transform(const XmlElement& transform);
+/// on a point first. An <animation> has the transform of its first key. Invalid steps are left out, with error
+/// notes.
+glm::mat4 read_transform(const XmlElement& transform, std::vector<LoadNote>& notes);
 
 /// Returns the rotation (or rotation and mirroring) in a transform, by Gram-Schmidt; empty: the transform is
 /// singular.
 std::optional<glm::mat3> rotation_of(const glm::mat4& transform);
 
 /// Returns the product of a <transform>'s steps for texture coordinates (u, v, 1). A matrix may have 9 numbers
-/// instead of 16. Throws LoadError.
-glm::mat3 read_uv_transform(const XmlElement& transform);
+/// instead of 16. Invalid steps are left out, with error notes.
+glm::mat3 read_uv_transform(const XmlElement& transform, std::vector<LoadNote>& notes);
 
 /// Reads a <point> or <vector>: value="x y z", or attributes x, y and z, which default to 0. Throws LoadError.
 glm::vec3 read_point(const XmlElement& point);

@@ -107,6 +107,8 @@ private:
             include(document, node);
         else if (element.tag() == "path" && depth == 1)
             files_.add_folder(element);
+        else
+            expand_spectrum_file(element, node, files_, notes_);
     }
 
     void include(XmlDocument& document, pugi::xml_node node) {

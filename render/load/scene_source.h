@@ -16,7 +16,7 @@ struct SceneSource {
     std::filesystem::path file;        ///< empty: the built-in Cornell box
     SceneVariables variables;          ///< -D name=value
     std::filesystem::path camera = {}; ///< file whose camera replaces the scene's; empty: none
-    bool strict = false;               ///< whether a missing file ends loading with an error
+    bool strict = false;               ///< whether a missing or damaged mesh, texture or transform ends loading
 };
 
 /// Returns the path of a scene's file, or words for the built-in scene.

@@ -1,4 +1,5 @@
 #include "render/load/plugins.h"
+#include "render/load/shape_readers.h"
 #include "render/mesh/meshes.h"
 #include "render/sampling/sampling.h"
 
@@ -18,14 +19,14 @@
 
 namespace tessera {
 
-namespace {
-
 MeshPlacement placement_parameters(Properties& p) {
     MeshPlacement placement;
     placement.to_world = p.transform("to_world");
     placement.flip_normals = p.boolean("flip_normals", false);
     return placement;
 }
+
+namespace {
 
 /// Places a generated mesh. Errors point at the shape, as there is no file.
 template <class Place>
@@ -93,70 +94,6 @@ void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std:
     read_round_shape(p, shapes[index], make_cylinder(), to_shape);
 }
 
-/// Reads the largest angle (degrees) between faces that share smooth normals; a parameter of Mitsuba 0.6.
-std::optional<float> max_smooth_angle_parameter(Properties& p, bool face_normals) {
-    if (!p.has("max_smooth_angle"))
-        return {};
-    const float angle = p.number("max_smooth_angle", 0);
-    if (!(angle >= 0 && angle <= 180))
-        p.take("max_smooth_angle")->fail("'max_smooth_angle' must be from 0 to 180 degrees", "value");
-    if (face_normals)
-        p.take("max_smooth_angle")->fail("'max_smooth_angle' and 'face_normals' exclude each other");
-    return angle;
-}
-
-/// Adds a job that reads a mesh file. `flip_v` is the format's default for flipping v, as image rows run from
-/// the top. `read` may request face normals in the placement.
-void read_mesh_file(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index,
-                    bool flip_v, std::function<Mesh(const std::filesystem::path&, MeshPlacement&)> read) {
-    const std::optional<LoadContext::File> file = context.take_file(p, "the shape is left out");
-    MeshPlacement placement = placement_parameters(p);
-    placement.face_normals = p.boolean("face_normals", false);
-    placement.max_smooth_angle = max_smooth_angle_parameter(p, placement.face_normals);
-    flip_v = p.boolean("flip_tex_coords", flip_v);
-    if (!file)
-        return;
-    // The job refers to the vector and indexes it: it belongs to the context, and may grow.
-    context.jobs.add(file->parameter,
-                     [&shapes, index, path = file->path, read = std::move(read), placement, flip_v](const auto&) {
-                         MeshPlacement placed = placement;
-                         Mesh mesh = read(path, placed);
-                         if (flip_v)
-                             for (glm::vec2& uv : mesh.uvs)
-                                 uv.y = 1 - uv.y;
-                         const std::string note = place_mesh(mesh, placed);
-                         shapes[index].mesh = std::move(mesh);
-                         return note;
-                     });
-}
-
-void read_obj_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    p.ignore({"collapse"});
-    read_mesh_file(context, p, shapes, index, true,
-                   [](const std::filesystem::path& path, MeshPlacement&) { return read_obj(path); });
-}
-
-void read_ply_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    // Bytes are sRGB. Floats are linear in Mitsuba 3, and sRGB in 0.6. The parameter `srgb` overrides both.
-    PlyColors colors;
-    colors.srgb_floats = p.boolean("srgb", context.old_syntax);
-    colors.srgb_bytes = p.boolean("srgb", true);
-    read_mesh_file(context, p, shapes, index, false,
-                   [colors](const std::filesystem::path& path, MeshPlacement&) { return read_ply(path, colors); });
-}
-
-void read_serialized_shape(LoadContext& context, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    const int number = p.integer("shape_index", 0);
-    if (number < 0)
-        p.take("shape_index")->fail("'shape_index' must not be negative", "value");
-    const auto read = [number](const std::filesystem::path& path, MeshPlacement& placement) {
-        SerializedMesh serialized = read_serialized(path, number);
-        placement.face_normals = placement.face_normals || serialized.face_normals;
-        return std::move(serialized.mesh);
-    };
-    read_mesh_file(context, p, shapes, index, false, read);
-}
-
 // A new plugin adds its row here. The reader fills shapes[index].mesh, at once or in a job.
 constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::size_t)> plugins[] = {
     {"rectangle", read_rectangle}, {"cube", read_cube},
@@ -166,6 +103,12 @@ constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::s
 };
 
 int material_parameter(LoadContext& context, Properties& p, bool emits_light) {
+    if (p.type() == "obj") { // read_obj_shape() sets the material, because there may be several BSDFs
+        for (const XmlElement& child : p.element().children())
+            if (const XmlElement nested = context.resolve(child); nested.tag() == "bsdf")
+                read_bsdf(context, nested);
+        return 0;
+    }
     const std::optional<XmlElement> bsdf = context.take_one_nested(p, "bsdf");
     return bsdf ? material_of(context, *bsdf) : default_material(context, emits_light);
 }
@@ -175,21 +118,40 @@ int area_light_parameter(LoadContext& context, Properties& p) {
     return emitter ? add_shape_emitter(context, *emitter) : -1;
 }
 
-/// Adds a shape with triangles to `shapes`. The vector must stay at its address until all files are read. An
-/// unknown type is skipped, with a note.
+/// Adds a shape with triangles to `shapes`. The vector must stay at its address until all files are read. A shape
+/// of an unknown type or with an invalid parameter is left out, with an error note.
 void add_mesh_shape(LoadContext& context, Properties& properties, std::vector<Shape>& shapes) {
-    const auto* plugin = find_plugin(plugins, properties.type());
-    if (!plugin) {
-        properties.note("the shape '" + properties.type() + "' is not known and left out");
-        return;
-    }
     Shape shape;
     shape.name = properties.name();
     shape.area_light = area_light_parameter(context, properties);
     shape.material = material_parameter(context, properties, shape.area_light >= 0);
-    shapes.push_back(std::move(shape));
-    context.shapes.push_back({&shapes, shapes.size() - 1, properties.element()});
-    plugin->read(context, properties, shapes, shapes.size() - 1);
+    const std::size_t index = shapes.size(), loaded = context.shapes.size();
+    try {
+        const auto* plugin = find_plugin(plugins, properties.type());
+        if (!plugin)
+            properties.element().fail("the shape '" + properties.type() + "' is not known");
+        shapes.push_back(std::move(shape));
+        context.shapes.push_back({&shapes, index, properties.element()});
+        plugin->read(context, properties, shapes, index);
+        properties.report_unused();
+    } catch (const LoadError& error) { // thrown before a job is added
+        shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(index), shapes.end());
+        context.shapes.erase(context.shapes.begin() + static_cast<std::ptrdiff_t>(loaded), context.shapes.end());
+        context.notes.push_back(error.note("the shape is left out"));
+    }
+}
+
+void add_to_group(LoadContext& context, const XmlElement& element, std::vector<Shape>& shapes);
+
+/// Adds the shapes nested in a `merge`. Mitsuba makes one mesh of those with the same BSDF, for speed only.
+void add_merged(LoadContext& context, Properties& properties, std::vector<Shape>& shapes) {
+    for (const XmlElement& shape : context.take_nested(properties, "shape")) {
+        const NestingGuard guard(context, shape);
+        if (&shapes == &context.scene.shapes)
+            add_shape(context, shape);
+        else
+            add_to_group(context, shape, shapes);
+    }
     properties.report_unused();
 }
 
@@ -201,7 +163,10 @@ void add_to_group(LoadContext& context, const XmlElement& element, std::vector<S
     for (const XmlElement& child : element.children())
         if (const XmlElement nested = context.resolve(child); nested.tag() == "emitter")
             child.fail("a shape of a shapegroup cannot emit light: lights cannot be instanced");
-    add_mesh_shape(context, properties, shapes);
+    if (properties.type() == "merge")
+        add_merged(context, properties, shapes);
+    else
+        add_mesh_shape(context, properties, shapes);
 }
 
 /// Returns the index of a <shape type="shapegroup"> in scene.groups, and adds it on first use.
@@ -221,16 +186,14 @@ int group_of(LoadContext& context, const XmlElement& element) {
     return index;
 }
 
-/// Returns the transform of an instance. Its inverse transforms rays into the group's space, and must be
-/// finite.
-glm::mat4 placement_of(Properties& p) {
+/// Returns whether a transform has an inverse, which transforms rays into a group's space, and must be finite.
+bool has_inverse(const glm::mat4& transform) {
     constexpr double largest = 1e12; // element of the inverse; not tuned
-    const glm::mat4 to_world = p.transform("to_world");
-    const glm::dmat4 inverse = glm::inverse(glm::dmat4(to_world));
+    const glm::dmat4 inverse = glm::inverse(glm::dmat4(transform));
     for (int i = 0; i < 16; ++i)
         if (!(std::abs(inverse[i / 4][i % 4]) < largest))
-            p.element().fail("the 'to_world' of an instance must have an inverse");
-    return to_world;
+            return false;
+    return true;
 }
 
 void add_instance(LoadContext& context, Properties& properties) {
@@ -238,8 +201,14 @@ void add_instance(LoadContext& context, Properties& properties) {
     if (nested.size() != 1 || nested[0].attribute("type") != "shapegroup")
         properties.element().fail("an instance needs exactly one shapegroup, nested or by reference");
     const int group = group_of(context, nested[0]);
-    context.scene.instances.push_back({group, placement_of(properties)});
+    const glm::mat4 to_world = properties.transform("to_world");
     properties.report_unused();
+    if (has_inverse(to_world))
+        context.scene.instances.push_back({group, to_world});
+    else
+        context.notes.push_back(properties.element()
+                                    .error("the 'to_world' of an instance must have an inverse")
+                                    .note("the instance is left out"));
 }
 
 } // namespace
@@ -250,6 +219,8 @@ void add_shape(LoadContext& context, const XmlElement& element) {
         group_of(context, element);
     else if (properties.type() == "instance")
         add_instance(context, properties);
+    else if (properties.type() == "merge")
+        add_merged(context, properties, context.scene.shapes);
     else
         add_mesh_shape(context, properties, context.scene.shapes);
 }

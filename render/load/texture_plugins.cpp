@@ -1,8 +1,11 @@
+#include "render/io/text.h"
 #include "render/load/plugins.h"
 #include "render/load/properties.h"
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -13,10 +16,14 @@ namespace tessera {
 
 namespace {
 
+constexpr Rgb replacement(0.5f); // in place of a texture that cannot be read
+const Bitmap grey_bitmap{1, 1, false, {}, {replacement}};
+constexpr const char* grey_instead = "grey is used instead";
+
 /// Reads `to_uv` of Mitsuba 3, or the scale and offset of 0.6.
 glm::mat3 uv_transform(Properties& p) {
     if (const auto element = p.take("to_uv"))
-        return read_uv_transform(*element);
+        return read_uv_transform(*element, p.notes());
     const float scale = p.number("uvscale", 1);
     return {p.number("uscale", scale), 0, 0, 0, p.number("vscale", scale), 0, p.number("uoffset", 0),
             p.number("voffset", 0),    1};
@@ -58,10 +65,27 @@ bool srgb_parameter(Properties& p) {
     return gamma != 1;
 }
 
+/// Reads the channel that becomes grey; a parameter of Mitsuba 0.6.
+BitmapChannel channel_parameter(Properties& p) {
+    static constexpr std::pair<std::string_view, BitmapChannel> channels[] = {
+        {"", BitmapChannel::all},        {"all", BitmapChannel::all},     {"r", BitmapChannel::red},
+        {"g", BitmapChannel::green},     {"b", BitmapChannel::blue},      {"a", BitmapChannel::alpha},
+        {"red", BitmapChannel::red},     {"green", BitmapChannel::green}, {"blue", BitmapChannel::blue},
+        {"alpha", BitmapChannel::alpha},
+    };
+    const std::string name = lower_case(p.text("channel", ""));
+    for (const auto& [known, channel] : channels)
+        if (known == name)
+            return channel;
+    p.take("channel")->fail("'" + name + "' is not a channel (r, g, b or a)", "value");
+}
+
 Texture read_bitmap_texture(LoadContext& context, Properties& p) {
     Texture texture;
+    const BitmapChannel channel = channel_parameter(p);
+    const bool srgb = srgb_parameter(p) && channel != BitmapChannel::alpha;
     texture.kind =
-        BitmapTexture{bitmap_parameter(context, p, srgb_parameter(p)), filter_parameter(p), wrap_parameter(p)};
+        BitmapTexture{bitmap_parameter(context, p, srgb, channel), filter_parameter(p), wrap_parameter(p)};
     texture.to_uv = uv_transform(p);
     p.ignore({"max_anisotropy", "cache", "format", "accel"}); // speed and memory only
     return texture;
@@ -147,34 +171,47 @@ constexpr Plugin<Texture (*)(LoadContext&, Properties&)> plugins[] = {
 
 } // namespace
 
-std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& p, bool srgb) {
-    const std::optional<LoadContext::File> file = context.take_file(p, "grey is used instead");
-    if (!file)
-        return std::make_shared<const Bitmap>(Bitmap{1, 1, false, {}, {Rgb(0.5f)}});
-    auto& shared = context.bitmaps[{file->path.lexically_normal().string(), srgb}];
+std::shared_ptr<const Bitmap> bitmap_of_file(LoadContext& context, const LoadContext::File& file, bool srgb,
+                                             BitmapChannel channel) {
+    auto& shared = context.bitmaps[{file.path.lexically_normal().string(), srgb, channel}];
     if (!shared) {
-        shared = std::make_shared<Bitmap>();
-        context.jobs.add(file->parameter,
-                         [target = shared, path = file->path, srgb](const std::function<bool()>& keep_reading) {
-                             LoadedBitmap loaded = read_bitmap(path, srgb, keep_reading);
-                             *target = std::move(loaded.bitmap);
-                             return loaded.note;
-                         });
+        shared = std::make_shared<Bitmap>(grey_bitmap);
+        const auto read = [target = shared, path = file.path, srgb, channel](const std::function<bool()>& go_on) {
+            LoadedBitmap loaded = read_bitmap(path, srgb, go_on, channel);
+            *target = std::move(loaded.bitmap);
+            FileReport report;
+            if (!loaded.note.empty())
+                report.notes.push_back(std::move(loaded.note));
+            return report;
+        };
+        context.jobs.add(file.parameter, grey_instead, read);
     }
     return shared;
 }
 
+std::shared_ptr<const Bitmap> bitmap_parameter(LoadContext& context, Properties& p, bool srgb,
+                                               BitmapChannel channel) {
+    const std::optional<LoadContext::File> file = context.take_file(p, grey_instead);
+    return file ? bitmap_of_file(context, *file, srgb, channel) : std::make_shared<const Bitmap>(grey_bitmap);
+}
+
 Texture read_texture(LoadContext& context, const XmlElement& element) {
-    const NestingGuard guard(context, element);
-    Properties properties(element, context.notes);
-    const auto* plugin = find_plugin(plugins, properties.type());
-    if (!plugin) {
-        properties.note("the texture '" + properties.type() + "' is not known; magenta is used instead");
-        return marking_color;
+    try {
+        const NestingGuard guard(context, element);
+        Properties properties(element, context.notes);
+        const auto* plugin = find_plugin(plugins, properties.type());
+        if (!plugin) {
+            context.notes.push_back(element.error("the texture '" + properties.type() + "' is not known")
+                                        .note("magenta is used instead"));
+            return marking_color;
+        }
+        const Texture texture = plugin->read(context, properties);
+        properties.report_unused();
+        return texture;
+    } catch (const LoadError& error) {
+        context.notes.push_back(error.note(grey_instead));
+        return replacement;
     }
-    const Texture texture = plugin->read(context, properties);
-    properties.report_unused();
-    return texture;
 }
 
 Texture texture_parameter(LoadContext& context, Properties& properties, std::string_view name, Rgb fallback) {

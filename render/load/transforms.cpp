@@ -1,6 +1,8 @@
 #include "render/load/properties.h"
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -110,20 +112,58 @@ glm::mat4 step(const XmlElement& element, bool planar) {
     element.fail("<" + std::string(tag) + "> is not a step of a transform");
 }
 
-glm::mat4 product_of_steps(const XmlElement& transform, bool planar) {
+glm::mat4 product_of_steps(const XmlElement& transform, bool planar, std::vector<LoadNote>& notes) {
     glm::mat4 result(1.0f);
-    for (const XmlElement& child : transform.children())
-        result = step(child, planar) * result;
+    for (const XmlElement& child : transform.children()) {
+        try {
+            result = step(child, planar) * result;
+        } catch (const LoadError& error) {
+            notes.push_back(error.note("this step of the transform is left out"));
+        }
+    }
     for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(result[i / 4][i % 4]))
-            transform.fail("the transform's numbers are too large");
+        if (!std::isfinite(result[i / 4][i % 4])) {
+            notes.push_back(transform.error("the transform's numbers are too large").note("it is left out"));
+            return glm::mat4(1.0f);
+        }
     return result;
+}
+
+/// Returns the key of an <animation> of Mitsuba 0.6 with the smallest time; empty: it has none.
+std::optional<XmlElement> first_key(const XmlElement& animation) {
+    std::optional<XmlElement> first;
+    const auto time_of = [](const XmlElement& key) { return key.has("time") ? key.number("time") : 0.0f; };
+    for (const XmlElement& key : animation.children())
+        if (key.tag() == "transform" && (!first || time_of(key) < time_of(*first)))
+            first = key;
+    return first;
+}
+
+/// Returns the transform that an <animation> has at its first key, with an error note.
+glm::mat4 still_of(const XmlElement& animation, std::vector<LoadNote>& notes) {
+    try {
+        const std::optional<XmlElement> key = first_key(animation);
+        notes.push_back(animation.error("animations are not rendered")
+                            .note(key ? "its first key is used at all times" : "it has no keys and is left out"));
+        return key ? product_of_steps(*key, false, notes) : glm::mat4(1.0f);
+    } catch (const LoadError& error) {
+        notes.push_back(error.note("the animation is left out"));
+        return glm::mat4(1.0f);
+    }
 }
 
 } // namespace
 
-glm::mat4 read_transform(const XmlElement& transform) {
-    return product_of_steps(transform, false);
+glm::mat4 read_transform(const XmlElement& transform, std::vector<LoadNote>& notes) {
+    if (transform.tag() == "animation")
+        return still_of(transform, notes);
+    if (transform.tag() == "transform")
+        return product_of_steps(transform, false, notes);
+    notes.push_back(transform
+                        .error("'" + transform.attribute("name") + "' must be of type <transform>, not <" +
+                               std::string(transform.tag()) + ">")
+                        .note("it is left out"));
+    return glm::mat4(1.0f);
 }
 
 std::optional<glm::mat3> rotation_of(const glm::mat4& transform) {
@@ -140,8 +180,8 @@ std::optional<glm::mat3> rotation_of(const glm::mat4& transform) {
     return m;
 }
 
-glm::mat3 read_uv_transform(const XmlElement& transform) {
-    const glm::mat4 m = product_of_steps(transform, true);
+glm::mat3 read_uv_transform(const XmlElement& transform, std::vector<LoadNote>& notes) {
+    const glm::mat4 m = product_of_steps(transform, true, notes);
     return {m[0][0], m[0][1], 0, m[1][0], m[1][1], 0, m[3][0], m[3][1], 1};
 }
 

@@ -11,6 +11,7 @@
 
 #include <fmt/core.h>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
@@ -59,8 +60,10 @@ void read_lens(Properties& p, Camera& camera) {
 
 void read_placement(Properties& p, Camera& camera) {
     camera.to_world = p.transform("to_world");
-    if (!(std::abs(glm::determinant(glm::mat3(camera.to_world))) > 0))
-        p.take("to_world")->fail("the camera's transform is flat");
+    if (!(std::abs(glm::determinant(glm::mat3(camera.to_world))) > 0)) {
+        p.notes().push_back(p.take("to_world")->error("the camera's transform is flat").note("it is left out"));
+        camera.to_world = glm::mat4(1.0f);
+    }
 }
 
 int film_side(Properties& p, std::string_view name, int fallback) {

@@ -96,7 +96,7 @@ void compute_normals(Mesh& mesh) {
 }
 
 std::string place_mesh(Mesh& mesh, const MeshPlacement& placement) {
-    std::string note;
+    std::string error;
     transform_positions(mesh, placement.to_world);
     if (placement.face_normals) {
         mesh.normals.clear();
@@ -107,13 +107,13 @@ std::string place_mesh(Mesh& mesh, const MeshPlacement& placement) {
     } else {
         transform_normals(mesh, placement.to_world);
         if (const std::size_t broken = repair_normals(mesh))
-            note = std::to_string(broken) + " normals without a direction are replaced by computed ones";
+            error = counted(broken, "normal") + " without a direction replaced by computed ones";
     }
     if (placement.flip_normals)
         flip(mesh);
     if (mesh.triangles.empty())
-        note = "there are no triangles in it";
-    return note;
+        error = "there are no triangles in it";
+    return error;
 }
 
 void place_flat_mesh(Mesh& mesh, const MeshPlacement& placement) {

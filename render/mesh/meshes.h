@@ -1,6 +1,7 @@
 // Meshes: reading files, placement in a scene, and tessellated shapes.
 #pragma once
 
+#include "render/mesh/mesh_file.h"
 #include "render/surface/mesh.h"
 
 #include <filesystem>
@@ -13,11 +14,10 @@
 
 namespace tessera {
 
-/// Read Wavefront OBJ: positions, texture coordinates, normals and faces. Polygons become triangle fans; groups
-/// and materials are ignored. Normals may have any length, also 0. Throw std::runtime_error with the reason and
-/// the place.
-Mesh read_obj(const std::filesystem::path& file);
-Mesh parse_obj(const std::string& text);
+/// Read Wavefront OBJ: positions, texture coordinates, normals, faces, and the names of objects, groups and
+/// materials. Throw std::runtime_error with the reason and the place.
+MeshFile read_obj(const std::filesystem::path& file);
+MeshFile parse_obj(const std::string& text);
 
 /// Encoding of a PLY file's colours: sRGB or linear.
 struct PlyColors {
@@ -26,21 +26,16 @@ struct PlyColors {
 };
 
 /// Read Stanford PLY, text or binary of either byte order: vertices with x y z, nx ny nz, u v (or s t, or
-/// texture_u texture_v), faces, and attributes of both, such as red green blue (see PlyLayout). Polygons become
-/// triangle fans; other elements and properties are ignored. Throw as read_obj() does.
-Mesh read_ply(const std::filesystem::path& file, PlyColors colors = {});
-Mesh parse_ply(std::string_view bytes, PlyColors colors = {});
+/// texture_u texture_v), faces, also with texture coordinates of their corners (a list "texcoord"), triangle
+/// strips, and attributes of vertices and faces, such as red green blue (see PlyLayout). Throw as read_obj() does.
+MeshFile read_ply(const std::filesystem::path& file, PlyColors colors = {});
+MeshFile parse_ply(std::string_view bytes, PlyColors colors = {});
 
-/// One mesh of a file in Mitsuba's format "serialized".
-struct SerializedMesh {
-    Mesh mesh;                 ///< normals of any length; colours are read as linear
-    bool face_normals = false; ///< whether the file requests face normals
-};
-
-/// Read one mesh of versions 3 or 4, in single or double precision. `index` counts the file's meshes from 0.
-/// Throw std::runtime_error, before allocating if the file cannot hold the declared counts.
-SerializedMesh read_serialized(const std::filesystem::path& file, int index);
-SerializedMesh parse_serialized(std::istream& stream, int index);
+/// Read one mesh of a file in Mitsuba's format "serialized", versions 3 or 4, in single or double precision.
+/// Colours are read as linear. `index` counts the file's meshes from 0. Throw std::runtime_error, before
+/// allocating if the file cannot hold the declared counts.
+MeshFile read_serialized(const std::filesystem::path& file, int index);
+MeshFile parse_serialized(std::istream& stream, int index);
 
 /// Parameters for placing a shape's mesh in the scene.
 struct MeshPlacement {
@@ -51,8 +46,8 @@ struct MeshPlacement {
 };
 
 /// Transforms a file's mesh to its place. Normals are transformed by the inverse transpose; missing or invalid
-/// ones are computed. Triangles keep their order. Returns the text of a note, or nothing. Throws
-/// std::runtime_error if a position is not finite.
+/// ones are computed. Triangles keep their order. Returns the text of an error, if there are invalid normals or no
+/// triangles, or nothing. Throws std::runtime_error if the transform makes a position infinite.
 std::string place_mesh(Mesh& mesh, const MeshPlacement& placement);
 
 /// Transforms a mesh of flat faces, whose orientation follows the order of their corners. The outside stays the

@@ -1,10 +1,13 @@
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/mesh/meshes.h"
+#include "render/mesh/obj_scan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -18,77 +21,16 @@ namespace tessera {
 
 namespace {
 
-constexpr std::string_view white_space = " \t\r";
-
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-/// Counts the words of a line, such as the corners of a face.
-std::size_t count_words(std::string_view list) {
-    std::size_t count = 0;
-    bool after_space = true;
-    for (const char c : list) {
-        count += after_space && !is_space(c);
-        after_space = is_space(c);
-    }
-    return count;
-}
-
-bool is_number_character(char c) {
-    return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
-}
-
-/// Counts the numbers of a line; 0 if a character cannot be part of a number ("nan", "1,5").
-std::size_t count_numbers(std::string_view list) {
-    list = list.substr(0, list.find('#'));
-    const bool is_plain =
-        std::all_of(list.begin(), list.end(), [](char c) { return is_number_character(c) || is_space(c); });
-    return is_plain ? count_words(list) : 0;
-}
-
-/// Counts of a file's items, for exact allocation.
-struct ObjCounts {
-    std::size_t positions = 0, normals = 0, uvs = 0, triangles = 0;
-};
-
-void require_numbers(std::string_view list, std::size_t needed, std::size_t line) {
-    if (count_numbers(list) < needed)
-        throw std::runtime_error("line " + std::to_string(line) + ": not a list of " + std::to_string(needed) +
-                                 " numbers or more");
-}
-
-/// Counts items and checks numbers. tinyobjloader would read an invalid number as 0.
-ObjCounts scan(std::istream& stream) {
-    ObjCounts counts;
-    std::string text;
-    for (std::size_t line = 1; std::getline(stream, text); ++line) {
-        std::string_view rest = text;
-        rest.remove_prefix(std::min(rest.find_first_not_of(white_space), rest.size()));
-        const std::string_view name = rest.substr(0, rest.find_first_of(white_space));
-        rest.remove_prefix(name.size());
-        if (name == "v" || name == "vn" || name == "vt")
-            require_numbers(rest, name == "vt" ? 1 : 3, line);
-        counts.positions += name == "v";
-        counts.normals += name == "vn";
-        counts.uvs += name == "vt";
-        if (name == "f")
-            counts.triangles += std::max<std::size_t>(count_words(rest), 2) - 2;
-    }
-    stream.clear();
-    stream.seekg(0);
-    return counts;
-}
-
 /// Collects what tinyobjloader reports, and makes one vertex of each combination of indices in use.
 class ObjBuilder {
 public:
-    explicit ObjBuilder(const ObjCounts& counts) {
+    explicit ObjBuilder(const ObjScan& counts) : scan_(counts) {
         // Memory peaks in finish(), which makes the mesh from the lists; normals are given or computed.
         const std::size_t vertex_bytes = 3 * sizeof(glm::vec3) + sizeof(ObjVertex) + sizeof(unsigned) +
                                          (counts.uvs > 0 ? sizeof(glm::vec2) : 0);
         require_memory(counts.positions * vertex_bytes + counts.normals * sizeof(glm::vec3) +
-                           counts.uvs * sizeof(glm::vec2) + counts.triangles * sizeof(glm::uvec3),
+                           counts.uvs * sizeof(glm::vec2) + counts.triangles * sizeof(glm::uvec3) +
+                           counts.polygons * sizeof(PolygonFan),
                        "its " + std::to_string(counts.positions) + " vertices and " +
                            std::to_string(counts.triangles) + " triangles");
         positions_.reserve(counts.positions);
@@ -97,23 +39,24 @@ public:
         normals_.reserve(counts.normals);
         uvs_.reserve(counts.uvs);
         mesh_.triangles.reserve(counts.triangles);
+        polygons_.reserve(counts.polygons);
     }
 
     void add_position(glm::vec3 p) {
-        require_finite(p.x + p.y + p.z, "position", positions_.size());
         positions_.push_back(p);
         first_vertex_.push_back(none);
     }
     void add_normal(glm::vec3 n) { normals_.push_back(n); }
-    void add_uv(glm::vec2 uv) {
-        require_finite(uv.x + uv.y, "texture coordinate", uvs_.size());
-        uvs_.push_back(uv);
-    }
+    void add_uv(glm::vec2 uv) { uvs_.push_back(uv); }
 
     void add_face(const tinyobj::index_t* corners, int count) {
         ++faces_;
-        if (count < 3)
+        if (count < 3) {
+            ++small_faces_;
             return;
+        }
+        if (count > 3)
+            polygons_.push_back({mesh_.triangles.size(), static_cast<std::size_t>(count)});
         const unsigned first = vertex(corners[0]);
         unsigned previous = vertex(corners[1]);
         for (int i = 2; i < count; ++i) {
@@ -123,7 +66,16 @@ public:
         }
     }
 
-    Mesh finish() {
+    void begin_part(const std::string& name, const std::string& material) {
+        end_part();
+        part_ = {name, material, mesh_.triangles.size(), 0};
+    }
+    void set_name(const std::string& name) { begin_part(name, part_.material); }
+    void set_material(const std::string& material) { begin_part(part_.name, material); }
+
+    MeshFile finish() {
+        mark_broken();
+        end_part();
         // Each list is released before the next array is allocated.
         release(first_vertex_);
         mesh_.positions.reserve(vertices_.size());
@@ -142,7 +94,14 @@ public:
                 mesh_.uvs.push_back(v.uv == none ? glm::vec2(0) : uvs_[v.uv]);
         }
         mesh_.triangles.shrink_to_fit();
-        return std::move(mesh_);
+        MeshFile file;
+        file.report = report();
+        if (const std::size_t uncut = cut_polygons(mesh_, polygons_))
+            file.report.ignored.push_back("the shape of " + counted(uncut, "face") + " whose edges cross");
+        drop_broken(file);
+        file.parts = std::move(parts_);
+        file.mesh = std::move(mesh_);
+        return file;
     }
 
 private:
@@ -158,10 +117,64 @@ private:
         array = std::vector<T>();
     }
 
-    /// Throws std::runtime_error for numbers such as 1e99, which become infinite.
-    static void require_finite(float sum, const char* name, std::size_t index) {
-        if (!std::isfinite(sum))
-            throw std::runtime_error(std::string(name) + " " + std::to_string(index + 1) + " is too large");
+    void end_part() {
+        part_.triangles = mesh_.triangles.size() - part_.first_triangle;
+        if (part_.triangles > 0)
+            parts_.push_back(part_);
+    }
+
+    void mark_broken() {
+        const auto mark = [](auto& values, const std::vector<std::size_t>& broken) {
+            for (const std::size_t i : broken)
+                if (i < values.size())
+                    values[i].x = std::numeric_limits<float>::quiet_NaN();
+        };
+        mark(positions_, scan_.broken_positions);
+        mark(normals_, scan_.broken_normals);
+        mark(uvs_, scan_.broken_uvs);
+    }
+
+    /// Repairs the mesh. Triangles are removed from the parts that have them.
+    void drop_broken(MeshFile& file) {
+        std::vector<std::size_t> kept{0}; // triangles kept before each triangle
+        for (const glm::uvec3& t : mesh_.triangles)
+            kept.push_back(kept.back() + (is_finite(t.x) && is_finite(t.y) && is_finite(t.z)));
+        for (MeshPart& part : parts_) {
+            const std::size_t end = kept[part.first_triangle + part.triangles];
+            part.first_triangle = kept[part.first_triangle];
+            part.triangles = end - part.first_triangle;
+        }
+        for (std::string& error : repair_mesh(mesh_))
+            file.report.errors.push_back(std::move(error));
+    }
+
+    bool is_finite(std::uint32_t vertex) const {
+        const glm::vec3 p = mesh_.positions[vertex];
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    }
+
+    FileReport report() const {
+        FileReport report;
+        report.contents = {counted(scan_.positions, "position"), counted(faces_, "face")};
+        if (scan_.normals > 0)
+            report.contents.push_back(counted(scan_.normals, "normal"));
+        if (scan_.uvs > 0)
+            report.contents.push_back(counted(scan_.uvs, "texture coordinate"));
+        std::set<std::string> materials;
+        for (const MeshPart& part : parts_)
+            if (!part.material.empty())
+                materials.insert(part.material);
+        if (parts_.size() > 1)
+            report.contents.push_back(counted(parts_.size(), "part"));
+        if (!materials.empty())
+            report.contents.push_back(counted(materials.size(), "material"));
+        if (scan_.colors > 0)
+            report.ignored.emplace_back("the colours of " + std::to_string(scan_.colors) + " vertices");
+        if (small_faces_ > 0)
+            report.ignored.push_back(counted(small_faces_, "face") + " with fewer than 3 corners");
+        for (const auto& [name, lines] : scan_.unknown)
+            report.ignored.push_back(counted(lines, "line") + " of '" + name + "'");
+        return report;
     }
 
     unsigned index(int from_file, std::size_t count, const char* name) const {
@@ -194,9 +207,19 @@ private:
     std::vector<glm::vec2> uvs_;
     std::vector<ObjVertex> vertices_;
     std::vector<unsigned> first_vertex_; // by position, an index of vertices_
-    std::size_t faces_ = 0;
+    ObjScan scan_;
+    std::vector<PolygonFan> polygons_;
+    std::vector<MeshPart> parts_;
+    MeshPart part_; // being read
+    std::size_t faces_ = 0, small_faces_ = 0;
     Mesh mesh_;
 };
+
+std::string trim(std::string_view text) {
+    constexpr std::string_view white_space = " \t\r";
+    text.remove_prefix(std::min(text.find_first_not_of(white_space), text.size()));
+    return std::string(text.substr(0, text.find_last_not_of(white_space) + 1));
+}
 
 tinyobj::callback_t callbacks() {
     tinyobj::callback_t result;
@@ -210,11 +233,23 @@ tinyobj::callback_t callbacks() {
     result.index_cb = [](void* b, tinyobj::index_t* corners, int count) {
         static_cast<ObjBuilder*>(b)->add_face(corners, count);
     };
+    result.usemtl_cb = [](void* b, const char* name, int) {
+        static_cast<ObjBuilder*>(b)->set_material(trim(name));
+    };
+    result.object_cb = [](void* b, const char* name) { static_cast<ObjBuilder*>(b)->set_name(trim(name)); };
+    result.group_cb = [](void* b, const char** names, int count) {
+        static_cast<ObjBuilder*>(b)->set_name(count > 0 ? names[0] : "");
+    };
     return result;
 }
 
-Mesh parse(std::istream& stream) {
-    ObjBuilder builder(scan(stream));
+MeshFile parse(std::istream& stream) {
+    const ObjScan scan = scan_obj(stream);
+    if (scan.has_continuation) {
+        std::istringstream joined(join_lines(stream));
+        return parse(joined);
+    }
+    ObjBuilder builder(scan);
     std::string warning;
     std::string error;
     if (!tinyobj::LoadObjWithCallback(stream, callbacks(), &builder, nullptr, &warning, &error))
@@ -224,12 +259,12 @@ Mesh parse(std::istream& stream) {
 
 } // namespace
 
-Mesh read_obj(const std::filesystem::path& file) {
+MeshFile read_obj(const std::filesystem::path& file) {
     std::ifstream stream = open_file(file);
     return parse(stream);
 }
 
-Mesh parse_obj(const std::string& text) {
+MeshFile parse_obj(const std::string& text) {
     std::istringstream stream(text);
     return parse(stream);
 }

@@ -1,6 +1,7 @@
 #include "render/mesh/ply_format.h"
 
 #include "render/io/text.h"
+#include "render/mesh/mesh_file.h"
 
 #include <algorithm>
 #include <array>
@@ -201,9 +202,11 @@ double PlyValues::next_word() {
     double value = 0;
     const char* const end = word.data() + word.size();
     const auto [read, error] = std::from_chars(word.data() + (word.front() == '+' ? 1 : 0), end, value);
-    if (read != end || error == std::errc::invalid_argument)
+    if (is_non_finite_word(word))
+        value = std::numeric_limits<double>::quiet_NaN();
+    else if (read != end || error == std::errc::invalid_argument)
         throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a number");
-    if (error == std::errc::result_out_of_range) // underflow or overflow
+    else if (error == std::errc::result_out_of_range) // underflow or overflow
         value = parse_number(word).value_or(std::numeric_limits<double>::infinity());
     bytes_.take(word.size());
     return value;

@@ -12,6 +12,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <glm/vec3.hpp>
 
@@ -78,23 +79,22 @@ std::uint16_t seek_mesh(std::istream& stream, std::uint64_t size, int index) {
     return read_version(stream);
 }
 
-/// Reads rows of numbers in blocks and converts them to float. Throws std::runtime_error for numbers that are
-/// not finite.
+/// Reads rows of numbers in blocks and converts them to float. Numbers beyond its range become infinite.
 class Rows {
 public:
     Rows(ZlibReader& zlib, bool doubles) : zlib_(zlib), doubles_(doubles) {}
 
     template <class Vector>
-    void read(std::vector<Vector>& rows, std::uint64_t count, const char* name) {
+    void read(std::vector<Vector>& rows, std::uint64_t count) {
         if (doubles_)
-            read_as<double>(rows, count, name);
+            read_as<double>(rows, count);
         else
-            read_as<float>(rows, count, name);
+            read_as<float>(rows, count);
     }
 
 private:
     template <class Number, class Vector>
-    void read_as(std::vector<Vector>& rows, std::uint64_t count, const char* name) {
+    void read_as(std::vector<Vector>& rows, std::uint64_t count) {
         constexpr std::size_t width = sizeof(Vector) / sizeof(float);
         constexpr std::size_t block = 1024; // rows
         std::array<Number, width * block> numbers;
@@ -105,16 +105,10 @@ private:
             for (std::size_t i = 0; i < chunk; ++i) {
                 Vector row;
                 for (std::size_t j = 0; j < width; ++j)
-                    row[static_cast<int>(j)] = to_float(numbers[i * width + j], rows.size(), name);
+                    row[static_cast<int>(j)] = static_cast<float>(numbers[i * width + j]);
                 rows.push_back(row);
             }
         }
-    }
-
-    static float to_float(double number, std::size_t row, const char* name) {
-        if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max())))
-            throw std::runtime_error(std::string(name) + " " + std::to_string(row) + " is not finite");
-        return static_cast<float>(number);
     }
 
     ZlibReader& zlib_;
@@ -158,7 +152,7 @@ void skip_name(ZlibReader& zlib) {
 
 } // namespace
 
-SerializedMesh parse_serialized(std::istream& stream, int index) {
+MeshFile parse_serialized(std::istream& stream, int index) {
     stream.seekg(0, std::ios::end);
     const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(stream.tellg(), 0));
     const std::uint16_t version = seek_mesh(stream, size, index);
@@ -176,22 +170,29 @@ SerializedMesh parse_serialized(std::istream& stream, int index) {
                    "its " + std::to_string(vertices) + " vertices and " + std::to_string(triangles) +
                        " triangles");
 
-    SerializedMesh result;
+    MeshFile result;
     Rows rows(zlib, flags & has_doubles);
-    rows.read(result.mesh.positions, vertices, "position");
+    rows.read(result.mesh.positions, vertices);
     if (flags & has_normals)
-        rows.read(result.mesh.normals, vertices, "normal");
+        rows.read(result.mesh.normals, vertices);
     if (flags & has_uvs)
-        rows.read(result.mesh.uvs, vertices, "texture coordinate");
+        rows.read(result.mesh.uvs, vertices);
     if (flags & has_colors)
         rows.read(result.mesh.attributes.emplace_back(MeshAttribute{std::string(vertex_color), {}}).values,
-                  vertices, "colour");
+                  vertices);
     read_triangles(zlib, result.mesh, triangles);
     result.face_normals = flags & has_face_normals;
+    result.report.contents = {counted(vertices, "position"), counted(triangles, "triangle")};
+    for (const auto& [flag, name] :
+         {std::pair(has_normals, "normals"), std::pair(has_uvs, "texture coordinates"),
+          std::pair(has_colors, "colours"), std::pair(has_face_normals, "face normals")})
+        if (flags & flag)
+            result.report.contents.emplace_back(name);
+    result.report.errors = repair_mesh(result.mesh);
     return result;
 }
 
-SerializedMesh read_serialized(const std::filesystem::path& file, int index) {
+MeshFile read_serialized(const std::filesystem::path& file, int index) {
     std::ifstream stream = open_file(file);
     return parse_serialized(stream, index);
 }

@@ -203,18 +203,19 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         set_footprint(view->sides() ? *view->sides() : sides_of(beam(), v.geometric_normal), by_u, by_v,
                       at.footprint);
     }
+    const float shown = side_shown(shape, normal, ray.direction);
+    const Material& material = shown < 0 && shape.material->back ? *shape.material->back : *shape.material;
     // Constructed in place: a copy would wait for the stores just made.
-    new (&v.bsdf) Bsdf(shape.material->resolve(at));
+    new (&v.bsdf) Bsdf(material.resolve(at));
     v.bsdf.terminator = -1;
     glm::vec3 bent = normal;
-    if (shape.material->relief) {
+    if (material.relief) {
         glm::vec3 by_u, by_v;
         if (position_derivatives(shape, hit, by_u, by_v)) {
-            bent = bend(*shape.material->relief, at, normal, by_u, by_v);
-            v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
+            bent = bend(*material.relief, at, normal, by_u, by_v);
+            v.bsdf.terminator = terminator_of(*material.relief, glm::dot(normal, bent));
         }
     }
-    const float shown = side_shown(shape, normal, ray.direction);
     const Frame frame = shading_frame(shape, hit, v.geometric_normal, shown * bent);
     if (v.bsdf.has_relief())
         v.bsdf.interpolated_normal = frame.to_local(shown * normal);

@@ -238,8 +238,10 @@ void SceneDigest::take(const Relief& relief) {
 }
 
 void SceneDigest::take(const Material& material) {
-    const auto& [name, kind, two_sided, opacity, relief] = material;
+    const auto& [name, kind, two_sided, opacity, relief, back] = material;
     add(kind, two_sided, opacity, relief);
+    if (back)
+        take(*back);
 }
 
 void SceneDigest::take(const AreaLight& light) {

@@ -79,12 +79,13 @@ Lobes lobes(const PlasticMaterial& m) {
 Lobes lobes(const PhongMaterial&) {
     return {}; // counts as diffuse, whatever its exponent
 }
+Lobes both(const Lobes& a, const Lobes& b) {
+    return {a.delta || b.delta, a.glossy || b.glossy, a.transmission || b.transmission};
+}
 Lobes lobes(const MixtureMaterial& m) {
     Lobes all;
-    for (const auto& part : m.parts) {
-        const Lobes l = lobes_of(*part);
-        all = {all.delta || l.delta, all.glossy || l.glossy, all.transmission || l.transmission};
-    }
+    for (const auto& part : m.parts)
+        all = both(all, lobes_of(*part));
     return all;
 }
 Lobes lobes(const CoatedMaterial& m) {
@@ -114,7 +115,8 @@ Lobes lobes(const MediumLayerMaterial&) {
 }
 
 Lobes lobes_of(const Material& m) {
-    return std::visit([](const auto& kind) { return lobes(kind); }, m.kind);
+    const Lobes front = std::visit([](const auto& kind) { return lobes(kind); }, m.kind);
+    return m.back ? both(front, lobes_of(*m.back)) : front;
 }
 
 bool looks_up_attributes(const Material& m) {
@@ -130,7 +132,7 @@ void add(const Material& m, SceneTraits& traits) {
     traits.transmission += l.transmission;
     traits.textures += m.is_textured();
     traits.mesh_attributes += looks_up_attributes(m);
-    traits.relief += m.relief.has_value();
+    traits.relief += m.relief.has_value() || (m.back && m.back->relief.has_value());
     traits.masks += m.is_mask();
 }
 

@@ -192,6 +192,9 @@ std::vector<const Texture*> Material::textures() const {
         all.push_back(&*opacity);
     if (relief)
         all.push_back(&relief->map);
+    if (back)
+        for (const Texture* texture : back->textures())
+            all.push_back(texture);
     return all;
 }
 
@@ -205,7 +208,8 @@ bool Material::is_mask() const {
 }
 
 bool Material::is_anisotropic() const {
-    return std::visit([](const auto& m) { return tessera::is_anisotropic(m); }, kind);
+    return std::visit([](const auto& m) { return tessera::is_anisotropic(m); }, kind) ||
+           (back && back->is_anisotropic());
 }
 
 bool Material::is_transparent() const {

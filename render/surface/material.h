@@ -156,6 +156,7 @@ struct Material {
     bool two_sided = false; ///< shades the back like the front; otherwise the back of an opaque material is black
     std::optional<Texture> opacity{}; ///< probability that a ray hits the surface (luminance); empty: 1
     std::optional<Relief> relief{};
+    std::shared_ptr<const Material> back{}; ///< of the back of a two-sided material, opaque; null: this one
 
     /// Returns the BSDF at a point. Some kinds of BSDF keep a pointer to this material.
     Bsdf resolve(const SurfacePoint& at) const;
@@ -170,7 +171,9 @@ struct Material {
     bool is_anisotropic() const;
 
     /// Returns whether the BSDF may be a mirror (Bsdf::is_mirror).
-    bool may_be_mirror() const { return std::holds_alternative<ConductorMaterial>(kind); }
+    bool may_be_mirror() const {
+        return std::holds_alternative<ConductorMaterial>(kind) || (back && back->may_be_mirror());
+    }
 
     /// Returns whether the opacity is not 1 everywhere.
     bool is_mask() const;

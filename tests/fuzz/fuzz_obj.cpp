@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        tessera::Mesh mesh = tessera::parse_obj(std::string(reinterpret_cast<const char*>(data), size));
+        tessera::Mesh mesh = tessera::parse_obj(std::string(reinterpret_cast<const char*>(data), size)).mesh;
         tessera::require_sound(mesh);
         tessera::place_mesh(mesh, {});
         tessera::require_placed(mesh);

@@ -36,18 +36,26 @@ TEST(BrokenText, SkipsAByteOrderMark) {
     EXPECT_EQ(error_of("\xef\xbb\xbf<scene version='x'/>").substr(0, 11), "b.xml:1:17:");
 }
 
-TEST(BrokenText, RejectsUtf16) {
+TEST(BrokenText, Utf16IsConverted) {
     for (const bool big_endian : {false, true}) {
-        EXPECT_EQ(error_of(utf16(plain, big_endian)), "b.xml: the file is in UTF-16; scenes are read in UTF-8");
-        EXPECT_EQ(error_of(utf16(plain, big_endian).substr(2)), // without its byte-order mark
-                  "b.xml: there are NUL bytes in the file; scenes are text in UTF-8");
+        std::string text = utf16(plain, big_endian);
+        EXPECT_EQ(parse_mitsuba_xml(text, "b.xml").description.materials.at(0).name, "Holz");
+        EXPECT_EQ(error_of(text.substr(2)), "no error"); // without its byte order mark
+        const std::size_t z = 2 + 2 * plain.find('z');
+        text.replace(z, 2, big_endian ? "\x67\x28" : "\x28\x67"); // U+6728
+        EXPECT_EQ(parse_mitsuba_xml(text, "b.xml").description.materials.at(0).name, "Hol\xe6\x9c\xa8");
+        text.replace(z, 2, big_endian ? "\xd8\x3d\xde\x00" : "\x3d\xd8\x00\xde", 4); // U+1F600
+        EXPECT_EQ(parse_mitsuba_xml(text, "b.xml").description.materials.at(0).name, "Hol\xf0\x9f\x98\x80");
+        text.erase(z + 2, 2); // half of a pair
+        EXPECT_EQ(error_of(text), "b.xml: the file is not valid UTF-16");
+        EXPECT_EQ(error_of(utf16(plain, big_endian) + "x"), "b.xml: the file is not valid UTF-16");
     }
 }
 
 TEST(BrokenText, RejectsNulBytes) {
     std::string text = plain;
     text[30] = '\0';
-    EXPECT_EQ(error_of(text), "b.xml: there are NUL bytes in the file; scenes are text in UTF-8");
+    EXPECT_EQ(error_of(text), "b.xml: there are NUL bytes in the file; scenes are text in UTF-8 or UTF-16");
 }
 
 TEST(BrokenText, Latin1IsConverted) {

@@ -147,20 +147,20 @@ TEST(Colors, MeshAttributes) {
 
 TEST(Colors, VertexColorsOfPlyFiles) {
     const std::string bytes = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    expect_near(parse_ply(ply(bytes, "255 128 0")).attribute(vertex_color)->values.at(0), Rgb(1, 0.215861f, 0),
-                1e-5f);
-    expect_near(parse_ply(ply(bytes, "255 128 0"), {false, false}).attribute(vertex_color)->values.at(0),
+    expect_near(parse_ply(ply(bytes, "255 128 0")).mesh.attribute(vertex_color)->values.at(0),
+                Rgb(1, 0.215861f, 0), 1e-5f);
+    expect_near(parse_ply(ply(bytes, "255 128 0"), {false, false}).mesh.attribute(vertex_color)->values.at(0),
                 Rgb(1, 128 / 255.0f, 0), 1e-6f);
     const std::string floats = "property float r\nproperty float g\nproperty float b\n";
-    EXPECT_EQ(parse_ply(ply(floats, "0.5 1.5 0")).attribute(vertex_color)->values.at(0), Rgb(0.5f, 1.5f, 0));
-    EXPECT_NEAR(parse_ply(ply(floats, "0.5 1 0"), {true, true}).attribute(vertex_color)->values.at(0).r, 0.214041f,
-                1e-5f);
+    EXPECT_EQ(parse_ply(ply(floats, "0.5 1.5 0")).mesh.attribute(vertex_color)->values.at(0), Rgb(0.5f, 1.5f, 0));
+    EXPECT_NEAR(parse_ply(ply(floats, "0.5 1 0"), {true, true}).mesh.attribute(vertex_color)->values.at(0).r,
+                0.214041f, 1e-5f);
     EXPECT_NEAR(parse_ply(ply("property ushort red\nproperty ushort green\nproperty ushort blue\n", "65535 0 0"))
-                    .attribute(vertex_color)
+                    .mesh.attribute(vertex_color)
                     ->values.at(0)
                     .r,
                 1, 1e-6);
-    EXPECT_FALSE(parse_ply(ply("property float red\n", "1")).attribute(vertex_color));
+    EXPECT_FALSE(parse_ply(ply("property float red\n", "1")).mesh.attribute(vertex_color));
 }
 
 TEST(Colors, MetalsByName) {

@@ -78,7 +78,7 @@ TEST_F(Include, SearchesTheIncludingFolderThenPathsThenTheSceneFolder) {
     folder.write("near/b.xml", scene_with("<path value='../far'/>" + obj("one.obj") + obj("two.obj") +
                                           obj("three.obj") + obj("../far/two.obj")));
     EXPECT_EQ(load("<include filename='near/b.xml'/>").description.shapes.size(), 4u);
-    expect_error(obj("two.obj"), path("a.xml") + ":2:50: there is no file '" + path("two.obj") + "'");
+    expect_error(obj("two.obj"), path("a.xml") + ":2:50: there is no file 'two.obj'");
     expect_error("<path value='nowhere'/>", path("a.xml") + ":2:14: there is no file '" + path("nowhere") + "'");
     expect_error("<path value='three.obj'/>",
                  path("a.xml") + ":2:14: '" + path("three.obj") + "' is not a folder");
@@ -96,7 +96,7 @@ TEST_F(Include, MessagesNameTheIncludedFile) {
     folder.write("b.xml", scene_with(obj("none.obj")));
     expect_error("<include filename='b.xml'/>", path("b.xml") + ":2:50: there is no file ");
     folder.write("b.xml", scene_with("<bsdf type='velvet'/>"));
-    const LoadedScene loaded = load("<shape type='torus'/>\n<include filename='b.xml'/>\n<shape type='knot'/>");
+    const LoadedScene loaded = load("<bsdf type='torus'/>\n<include filename='b.xml'/>\n<bsdf type='knot'/>");
     ASSERT_EQ(loaded.notes.size(), 4u); // notes of the including file come first
     EXPECT_EQ(loaded.notes[3].where.to_string(), path("b.xml") + ":2:1");
     EXPECT_EQ(loaded.notes[2].where.line, 4);

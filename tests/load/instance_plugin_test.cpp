@@ -18,7 +18,7 @@ LoadedScene parse(const std::string& body, const std::string& version = "3.0.0")
 
 std::string error_of(const std::string& body) {
     try {
-        parse(body);
+        parse_mitsuba_xml("<scene version='3.0.0'>" + body + "</scene>", "s.xml", {}, serial_for, nullptr, true);
     } catch (const LoadError& e) {
         return e.what();
     }

@@ -305,7 +305,7 @@ TEST(MitsubaXml, ReportsEverythingThatIsNotUsed) {
                            "n.xml:2:3: the bsdf 'velvet' is not known; diffuse magenta is used instead\n"
                            "n.xml:3:24: 'shine' of bsdf 'diffuse' is not used\n"
                            "n.xml:4:3: the emitter 'lantern' is not known; it gives no light\n"
-                           "n.xml:5:3: the shape 'torus' is not known and left out\n"
+                           "n.xml:5:3: the shape 'torus' is not known; the shape is left out\n"
                            "n.xml:6:3: <medium> is not known and not used\n"
                            "n.xml:7:22: the emitter 'laser' is not known; it gives no light\n"
                            "n.xml:9:5: 'hide_emitters' of integrator 'path' is not used\n");

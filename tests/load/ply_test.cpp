@@ -85,6 +85,10 @@ void expect_square(const Mesh& mesh) {
     EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+Mesh mesh_of(const std::string& bytes) {
+    return parse_ply(bytes).mesh;
+}
+
 std::string error_of(const std::string& bytes) {
     try {
         parse_ply(bytes);
@@ -107,22 +111,22 @@ const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
 } // namespace
 
 TEST(Ply, ReadsAllFormatsAndTypes) {
-    expect_square(parse_ply(ascii_square));
+    expect_square(mesh_of(ascii_square));
     for (const bool big_endian : {false, true}) {
-        expect_square(parse_ply(binary_square<std::uint8_t, std::int32_t>(big_endian, "uchar int")));
-        expect_square(parse_ply(binary_square<std::uint8_t, std::uint32_t>(big_endian, "uint8 uint")));
-        expect_square(parse_ply(binary_square<std::int8_t, std::uint8_t>(big_endian, "int8 uchar")));
-        expect_square(parse_ply(binary_square<std::uint16_t, std::int16_t>(big_endian, "ushort short")));
-        expect_square(parse_ply(binary_square<std::int32_t, std::uint16_t>(big_endian, "int uint16")));
+        expect_square(mesh_of(binary_square<std::uint8_t, std::int32_t>(big_endian, "uchar int")));
+        expect_square(mesh_of(binary_square<std::uint8_t, std::uint32_t>(big_endian, "uint8 uint")));
+        expect_square(mesh_of(binary_square<std::int8_t, std::uint8_t>(big_endian, "int8 uchar")));
+        expect_square(mesh_of(binary_square<std::uint16_t, std::int16_t>(big_endian, "ushort short")));
+        expect_square(mesh_of(binary_square<std::int32_t, std::uint16_t>(big_endian, "int uint16")));
     }
 }
 
 TEST(Ply, FacesMayPrecedeVertices) {
     const Mesh mesh =
-        parse_ply("ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\n"
-                  "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
-                  "3 2 1 0\n" +
-                  three);
+        mesh_of("ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\n"
+                "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                "3 2 1 0\n" +
+                three);
     EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{2, 1, 0}}));
     EXPECT_TRUE(mesh.normals.empty());
     EXPECT_TRUE(mesh.uvs.empty());
@@ -130,16 +134,16 @@ TEST(Ply, FacesMayPrecedeVertices) {
 
 TEST(Ply, AttributesHaveMitsubasNames) {
     const auto mesh =
-        parse_ply("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                  "property float z\nproperty float foo_1\nproperty float foo_2\nproperty float foo_3\n"
-                  "property float rough_0\nproperty float pair_0\nproperty float pair_1\n"
-                  "property float quality\nproperty float tint_g\nproperty float tint_r\n"
-                  "property float tint_b\nelement face 2\nproperty uchar red\n"
-                  "property list int int vertex_index\nproperty uchar green\nproperty uchar blue\n"
-                  "end_header\n"
-                  "0 0 0 1 2 3 0.5 0 0 9 7 6 8\n1 0 0 4 5 6 0.25 0 0 9 7 6 8\n"
-                  "1 1 0 1 2 3 1 0 0 9 7 6 8\n0 1 0 1 2 3 1 0 0 9 7 6 8\n"
-                  "255 4 0 1 2 3 0 255\n0 3 0 1 2 255 0\n");
+        mesh_of("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                "property float z\nproperty float foo_1\nproperty float foo_2\nproperty float foo_3\n"
+                "property float rough_0\nproperty float pair_0\nproperty float pair_1\n"
+                "property float quality\nproperty float tint_g\nproperty float tint_r\n"
+                "property float tint_b\nelement face 2\nproperty uchar red\n"
+                "property list int int vertex_index\nproperty uchar green\nproperty uchar blue\n"
+                "end_header\n"
+                "0 0 0 1 2 3 0.5 0 0 9 7 6 8\n1 0 0 4 5 6 0.25 0 0 9 7 6 8\n"
+                "1 1 0 1 2 3 1 0 0 9 7 6 8\n0 1 0 1 2 3 1 0 0 9 7 6 8\n"
+                "255 4 0 1 2 3 0 255\n0 3 0 1 2 255 0\n");
     ASSERT_EQ(mesh.attributes.size(), 4u);
     EXPECT_EQ(mesh.attribute("vertex_foo")->values.at(1), glm::vec3(4, 5, 6));
     EXPECT_EQ(mesh.attribute("vertex_rough")->values.at(1), glm::vec3(0.25f));
@@ -183,12 +187,6 @@ TEST(Ply, ReportsErrors) {
     EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 1.5\n")), "face 0: 1.500000 is not a vertex index");
     EXPECT_EQ(error_of(ascii_ply(three, "-3 0 1 1\n")), "face 0: a list cannot have the length -3.000000");
     EXPECT_EQ(error_of(ascii_ply(three, "3 0 1")), "face 0: the file ends too early");
-    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")),
-              "vertex 1: its y is not a finite number");
-    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 0 1e300\n0 1 0\n", "3 0 1 2\n")),
-              "vertex 1: its z is not a finite number");
-    EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 0 1e400\n0 1 0\n", "3 0 1 2\n")),
-              "vertex 1: its z is not a finite number");
     EXPECT_EQ(error_of(ascii_ply("0 0 0\n1 0 1e-400\n0 1 0\n", "3 0 1 2\n")), "no error");
     EXPECT_EQ(error_of(ascii_ply("0 0 zero\n1 0 0\n0 1 0\n", "3 0 1 2\n")), "vertex 0: 'zero' is not a number");
     EXPECT_EQ(error_of(ascii_ply(three, "3 0 1 2\n", 3, 1000000000)),
@@ -200,14 +198,6 @@ TEST(Ply, ReportsErrors) {
               "line 4: the type 'text' is not known");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
               "vertex 0: x, y or z is missing");
-    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                       "property float z\nproperty float a_0\nend_header\n0 0 0 nan\n"),
-              "vertex 0: its a_0 is not a finite number");
-    EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                       "property float z\nelement face 1\nproperty list int int vertex_index\nproperty float a_0\n"
-                       "element face 1\nproperty list int int vertex_index\nend_header\n" +
-                       three + "3 0 1 2 5\n3 0 1 2\n"),
-              "not all faces have the attribute 'face_a'");
     EXPECT_EQ(error_of("ply\nend_header\n"), "line 2: the header names no format");
     EXPECT_EQ(error_of("ply\nformat ascii 1.0\n"), "line 3: the header has no end");
     EXPECT_EQ(error_of(""), "line 1: the header has no end");

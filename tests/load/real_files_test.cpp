@@ -44,8 +44,8 @@ TEST(RealFiles, ReportsMissingFilesAndLoadsTheRest) {
     std::string errors;
     for (const LoadNote& note : loaded.notes)
         errors += note.is_error ? note.text + "\n" : "";
-    EXPECT_EQ(errors, "there is no file 'Models/none.obj': the shape is left out\n"
-                      "there is no file 'none.png': grey is used instead\n");
+    EXPECT_EQ(errors, "there is no file 'Models/none.obj'; the shape is left out\n"
+                      "there is no file 'none.png'; grey is used instead\n");
     EXPECT_NO_THROW(Scene{loaded.description});
     EXPECT_THROW(load_mitsuba_xml(file, {}, serial_for, nullptr, true), LoadError);
 }
@@ -58,7 +58,7 @@ TEST(RealFiles, FileNamesIgnoreCase) {
     folder.write("none.PNG", tga_row("abc"));
     const auto error = [&] {
         try {
-            load_mitsuba_xml(file);
+            load_mitsuba_xml(file, {}, serial_for, nullptr, true);
         } catch (const LoadError& e) {
             return std::string(e.what());
         }

@@ -69,6 +69,8 @@ TEST(SceneChecksums, CoverAllThatAPictureShows) {
     EXPECT_EQ(difference_after([](S& s) { s.shapes[0].material = s.shapes[1].material; }), "materials");
     EXPECT_EQ(difference_after([](S& s) { s.materials[0].two_sided = !s.materials[0].two_sided; }), "materials")
         << "the material of the ceiling";
+    EXPECT_EQ(difference_after([](S& s) { s.materials[0].back = std::make_shared<const Material>(); }),
+              "materials");
     EXPECT_EQ(difference_after([](S& s) {
                   Material& wall = s.materials[static_cast<std::size_t>(s.shapes[0].material)];
                   auto& kind = std::get<DiffuseMaterial>(wall.kind);
