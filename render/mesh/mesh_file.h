@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// Contents of a mesh file, as its reader lists them.
+/// What the reader of a mesh or image file found.
 struct FileReport {
     std::vector<std::string> contents; ///< what is in the mesh: "4 positions", "normals"
     std::vector<std::string> ignored;  ///< what has no effect: "the element 'edge'"
