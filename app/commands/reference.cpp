@@ -34,7 +34,7 @@ void add_reference(CLI::App& app, ReferenceArguments& words) {
     ReferenceRecipe& recipe = words.options.recipe;
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
-    command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
+    add_view_options(command, {words.camera, words.sensor, words.crop});
     command.add_flag("--strict", words.strict,
                      "fail if the file of a texture or mesh is missing, instead of leaving it out");
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
@@ -68,7 +68,10 @@ PassShard parse_share(const std::string& text) {
 
 ReferenceOptions parse_reference(const CLI::App& command, const ReferenceArguments& words) {
     ReferenceOptions options = words.options;
-    options.scene = {words.scene, parse_variables(words.definitions), words.camera, words.strict};
+    options.scene = {words.scene, parse_variables(words.definitions), words.camera, words.strict, words.sensor,
+                     {}};
+    if (!words.crop.empty())
+        options.scene.crop = parse_crop(words.crop, words.size);
     if (command.count("--max-depth"))
         options.max_depth = options.recipe.settings.max_depth;
     if (command.count("--size"))
@@ -87,10 +90,9 @@ void print_error(const std::filesystem::path& output, const ReferenceImage& refe
     fmt::print("{}: by {}; relMSE of the reference itself {:.3g} +- {:.2g}\n", output.string(),
                to_string(origin_of(reference)), error.relative_mse, error.standard_error);
     if (const double fraction = untrusted_fraction(reference.doubt); fraction > 0)
-        fmt::print(
-            "{:.2g} % of its pixels are unreliable: their error is above {:g} %, their brightest "
-            "sample is a firefly, or no sample found radiance (layer doubt)\n",
-            100 * fraction, 100 * untrusted_threshold);
+        fmt::print("{:.2g} % of its pixels are unreliable: their error is above {:g} %, their brightest "
+                   "sample is a firefly, or no sample found radiance (layer doubt)\n",
+                   100 * fraction, 100 * untrusted_threshold);
 }
 
 } // namespace
@@ -109,7 +111,7 @@ int run_reference(const ReferenceOptions& options) {
     const OpenedScene opened = open_scene(options.scene, pool);
     print_notes(opened.notes);
     ReferenceRecipe recipe = options.recipe;
-    recipe.size = options.size.value_or(opened.scene->size());
+    recipe.size = opened.scene->size(options.size);
     recipe.settings.max_depth = options.max_depth.value_or(std::min(opened.scene->max_depth(), most_edges));
 
     const InterruptGuard guard;
