@@ -24,8 +24,8 @@ namespace {
 
 /// Command-line arguments before they are parsed.
 struct Words {
-    std::string scene, camera, methods, norms, clock = "wall", sample;
-    std::vector<std::string> definitions;
+    std::string scene, camera, sensor, crop, methods, norms, clock = "wall", sample;
+    std::vector<std::string> definitions, scenes; ///< several scenes of `render`
     bool strict = false;
     glm::ivec2 size{0}, window{0}; ///< 0: not given
     int spp = 0;
@@ -36,13 +36,23 @@ struct Words {
     RenderSettings settings;
     ReconstructionSettings reconstruction;
 
-    SceneSource source() const { return {scene, parse_variables(definitions), camera, strict}; }
+    SceneSource source() const { return source(scene); }
+    SceneSource source(const std::string& file) const {
+        return {file,   parse_variables(definitions),
+                camera, strict,
+                sensor, crop.empty() ? std::nullopt : std::optional(parse_crop(crop, size))};
+    }
 };
+
+/// Adds the options that choose a view of a scene.
+void add_view(CLI::App& command, Words& words) {
+    command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
+    add_view_options(command, {words.camera, words.sensor, words.crop});
+}
 
 void add_scene(CLI::App& command, Words& words, bool required) {
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required(required);
-    command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
-    command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
+    add_view(command, words);
 }
 
 void add_settings(CLI::App& command, Words& words) {
@@ -51,7 +61,6 @@ void add_settings(CLI::App& command, Words& words) {
 }
 
 int render(const CLI::App& command, const Words& words, RenderOptions options) {
-    options.scene = words.source();
     options.settings = words.settings;
     if (command.count("--max-depth"))
         options.max_depth = words.settings.max_depth;
@@ -66,7 +75,10 @@ int render(const CLI::App& command, const Words& words, RenderOptions options) {
         options.layers.norms = parse_norms(words.norms);
     options.layers.settings = words.reconstruction;
     options.threads = words.threads;
-    return run_render(options);
+    std::vector<SceneSource> scenes;
+    for (const std::string& file : words.scenes)
+        scenes.push_back(words.source(file));
+    return run_render(options, scenes);
 }
 
 /// Returns the version and the commit of the source, such as "0.2.0 (commit 1a2b3c4)". The commit ends with
@@ -87,13 +99,23 @@ std::string default_norms() {
 
 void add_render(CLI::App& app, Words& words, RenderOptions& options) {
     CLI::App& command = *app.add_subcommand("render", "render a scene to an EXR file");
-    add_scene(command, words, true);
+    forbid_empty(command.add_option("scene", words.scenes,
+                                    "Mitsuba scenes, XML. Several: the name of each is added to OUTPUT, and "
+                                    "after an error the next is rendered"))
+        ->required()
+        ->take_all();
+    add_view(command, words);
+    forbid_empty(command.add_option("--cameras", options.cameras,
+                                    "JSON file with a list of cameras: one picture each. Its number, from 0, "
+                                    "replaces #### in OUTPUT, or is added to it"))
+        ->excludes("--camera");
     add_settings(command, words);
     add_method(command, words.settings.method);
     add_setting(command, spp_setting(words.spp))->default_str(std::to_string(default_spp));
     limit_to_seconds(command.add_option("--time", words.time, "render time in seconds, without loading"));
     add_clock(command, words.clock);
     add_norms(command, words.norms, "or several: one layer each (default: " + default_norms() + ")");
+    add_pixel_format(command, options.format);
     command.add_option("-o,--output", options.output, "file to write: EXR, or PNG with the picture alone")
         ->required();
     command.add_option("--stats", options.stats, "JSON file for times, rays and counts");
@@ -124,7 +146,8 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_option(
         "--inspect", words.sample,
         "X,Y,PASS: opens this sample in the path inspector, in the last pane; pixel and pass count from 0. The "
-        "sample is that of a render with the same scene, -D, --camera, --size, method, settings and --seed. "
+        "sample is that of a render with the same scene, -D, --camera, --sensor, --crop, --size, method, settings "
+        "and --seed. "
         "Defaults are those of `tessera render`: one pane, G-PR, the scene's size");
     command.add_option("--reference", options.reference, "EXR file to show errors against");
     forbid_empty(
@@ -133,7 +156,7 @@ void add_view(CLI::App& app, Words& words, ViewOptions& options) {
     command.add_option("--screenshot", options.screenshot,
                        "save the window as PNG when all panes have --spp, and quit");
     command.add_flag("!--no-gallery", options.shows_gallery, "start without the gallery of scenes");
-    command.add_option("--script", options.script, "file with script steps, one per line");
+    command.add_option("--script", options.script, "file with script steps, one per line; -: standard input");
     command.footer("Steps of a script:\n" + script_help());
     Setting window = size_setting(words.window);
     window.id = "window";
@@ -172,6 +195,9 @@ SizeChoice size_of(const Words& words) {
     glm::ivec2 size = words.size;
     if (const Setting shown = size_setting(size, most_render_pixels_an_edge); !shown.is_allowed())
         throw BadInput(fmt::format("--size {}: in the viewer, it must be {}", shown.text(), shown.allowed()));
+    // With --crop, --size is the film's.
+    if (!words.crop.empty())
+        size = parse_crop(words.crop, size).size_on(size);
     return {SizeChoice::Base::custom, 1, size};
 }
 
@@ -183,9 +209,10 @@ int view(const CLI::App& command, const Words& words, ViewOptions options) {
         // The camera and the variables apply to one scene, under any of its names.
         std::error_code ignored;
         const bool same = !source.file.empty() && std::filesystem::equivalent(file, source.file, ignored);
-        return origin_of(same ? SceneSource{file, source.variables, source.camera, source.strict}
-                              : SceneSource{file, {}, {}},
-                         threads);
+        return origin_of(
+            same ? SceneSource{file, source.variables, source.camera, source.strict, source.sensor, source.crop}
+                 : SceneSource{file, {}, {}},
+            threads);
     };
     options.panes = panes_of(command, words);
     options.uses_stored_pane_count =

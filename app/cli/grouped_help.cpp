@@ -25,7 +25,7 @@ const std::vector<HelpGroup>& help_groups() {
     static const std::vector<HelpGroup> groups = {
         {"Everyday",
          {"-m", "--panes", "--recon", "--spp", "--time", "--quick", "--seeds", "--vary", "--size", "--max-depth",
-          "-D", "--camera", "--reference", "-o"}},
+          "-D", "--camera", "--cameras", "--sensor", "--crop", "--pixel-format", "--reference", "-o"}},
         {"Published settings", render_option_names()}, // the presets change these
         {"Expert", {"--alpha", "--seed", "--threads", "--clock", "--stats", "--buffers", "--strict"}},
         {"Jobs that processes share",

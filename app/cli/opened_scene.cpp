@@ -62,7 +62,45 @@ std::shared_ptr<const Scene> build(SceneDescription description, const std::stri
     }
 }
 
+/// Chooses the scene's sensor and crop window.
+/// @param camera  replaces the sensor's; its film parts only if it has any
+void choose_view(SceneDescription& scene, const SceneSource& source, std::optional<Camera> camera,
+                 std::vector<LoadNote>& notes) {
+    try {
+        if (!source.sensor.empty())
+            scene.use(scene.sensors.at(find_sensor(scene.sensors, source.sensor)));
+        else if (scene.sensors.size() > 1)
+            notes.push_back({{source.file.string(), 0, 0},
+                             fmt::format("the scene has several sensors, {}: sensor 0 is used (--sensor)",
+                                         list_of(scene.sensors))});
+    } catch (const std::runtime_error& error) {
+        throw BadInput(fmt::format("--sensor {}: {}: {}", source.sensor, to_string(source), error.what()));
+    }
+    const Camera own = scene.camera;
+    const glm::ivec2 film = own.crop.empty() ? scene.size : own.crop.film;
+    if (camera)
+        scene.camera = with_film_of(*camera, own);
+    if (!source.crop)
+        return;
+    CropWindow crop = *source.crop;
+    if (crop.film == glm::ivec2(0))
+        crop.film = film;
+    if (!crop.empty() && !crop.is_valid())
+        throw BadInput(fmt::format("--crop {}: the window does not lie within the film of {}x{} pixels",
+                                   text_of(crop), crop.film.x, crop.film.y));
+    scene.size = crop.size_on(crop.film);
+    scene.camera.crop = crop.empty() || crop.size == crop.film ? CropWindow{} : crop;
+}
+
 } // namespace
+
+Camera with_film_of(Camera camera, const Camera& sensor) {
+    if (camera.crop.empty())
+        camera.crop = sensor.crop;
+    if (camera.filter == PixelFilter())
+        camera.filter = sensor.filter;
+    return camera;
+}
 
 SceneNotes group_notes(const std::vector<LoadNote>& notes) {
     std::map<std::string_view, std::size_t> group_of;
@@ -120,7 +158,7 @@ OpenedScene open_scene(const SceneSource& source, ThreadPool& pool, LoadProgress
                                        progress, source.strict)
                    : load_mitsuba_xml(source.file, source.variables, parallel_for, progress, source.strict);
     });
-    loaded.description.camera = camera.value_or(loaded.description.camera);
+    choose_view(loaded.description, source, camera, loaded.notes);
     OpenedScene opened;
     opened.notes = std::move(loaded.notes);
     opened.meshes = std::move(loaded.meshes);
@@ -160,7 +198,9 @@ SceneLoader loader_of(const SceneSource& source, int threads) {
 }
 
 SceneOrigin origin_of(const SceneSource& source, int threads) {
-    return {to_string(source), {source.file, source.variables, {}, source.strict}, loader_of(source, threads)};
+    return {to_string(source),
+            {source.file, source.variables, {}, source.strict, source.sensor, source.crop},
+            loader_of(source, threads)};
 }
 
 void make_folder(const std::filesystem::path& folder) {

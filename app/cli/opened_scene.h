@@ -5,6 +5,7 @@
 #include "render/load/mitsuba_xml.h"
 #include "render/load/scene_source.h"
 #include "render/run/thread_pool.h"
+#include "render/scene/camera.h"
 #include "ui/jobs/scene_load.h"
 
 #include <filesystem>
@@ -34,6 +35,9 @@ struct OpenedScene {
 
 /// Throws BadInput that names the file if it does not exist.
 void check_scene_file(const std::filesystem::path& file);
+
+/// Returns the camera with crop window and filter of a scene's sensor, as far as it has none.
+Camera with_film_of(Camera camera, const Camera& sensor);
 
 /// Loads and builds a scene. Throws LoadError or another std::exception whose what() is fit for the user.
 /// `progress` may be null.

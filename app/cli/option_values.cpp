@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <cstdio>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -34,6 +35,19 @@ glm::ivec2 parse_size(const std::string& option, const std::string& text) {
         throw BadInput(fmt::format("{} {}: {}", option, text, error.what()));
     }
     return size;
+}
+
+CropWindow parse_crop(const std::string& text, glm::ivec2 film) {
+    CropWindow crop{film};
+    if (text == "none")
+        return crop;
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%9d,%9d,%9dx%9d%n", &crop.offset.x, &crop.offset.y, &crop.size.x, &crop.size.y,
+                    &end) != 4 ||
+        end != static_cast<int>(text.size()) || crop.offset.x < 0 || crop.offset.y < 0 || crop.size.x < 1 ||
+        crop.size.y < 1)
+        throw BadInput(fmt::format("--crop {}: must be X,Y,WIDTHxHEIGHT in pixels, or none", text));
+    return crop;
 }
 
 SceneVariables parse_variables(const std::vector<std::string>& definitions) {
@@ -175,6 +189,27 @@ struct OptionAdder {
 
 CLI::Option* add_setting(CLI::App& command, const Setting& setting) {
     return std::visit(OptionAdder{command, setting}, setting.kind)->default_str(setting.text());
+}
+
+void add_view_options(CLI::App& command, ViewArguments words) {
+    command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
+    forbid_empty(command.add_option("--sensor", words.sensor,
+                                    "number of a sensor of the scene, from 0, or its id (default: the first)"));
+    forbid_empty(command.add_option(
+        "--crop", words.crop,
+        "X,Y,WIDTHxHEIGHT: renders this window of the film, with the random numbers of the whole film (pixels); "
+        "or "
+        "none: the whole film (default: the sensor's crop window). --size is then the size of the film"));
+}
+
+CLI::Option* add_pixel_format(CLI::App& command, std::optional<PixelFormat>& format) {
+    const std::vector<std::string> names{"luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"};
+    return command
+        .add_option_function<std::string>(
+            "--pixel-format", [&format](const std::string& name) { format = pixel_format_from_name(name); },
+            "channels of the picture. Alpha is the covered fraction of each pixel; colours are multiplied by it, "
+            "except in PNG (default: the sensor's)")
+        ->check(CLI::IsMember(names));
 }
 
 CLI::Option* add_method(CLI::App& command, Method& method) {

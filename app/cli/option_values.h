@@ -2,8 +2,11 @@
 
 #include "recon/picture/reconstruct.h"
 #include "render/load/scene_source.h"
+#include "render/scene/camera.h"
+#include "render/scene/sensor.h"
 #include "render/settings/settings_table.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,8 @@ struct SampleChoice;
 
 /// Parses the value "WxH" of `option`, in pixels.
 glm::ivec2 parse_size(const std::string& option, const std::string& text);
+/// Parses the value "X,Y,WxH" of --crop, or "none", which has no window. Its film is `film`; 0: the scene's.
+CropWindow parse_crop(const std::string& text, glm::ivec2 film);
 /// Parses the values "name=value" of -D.
 SceneVariables parse_variables(const std::vector<std::string>& definitions);
 /// Parses the value "l2,none" of --recon.
@@ -50,6 +55,16 @@ CLI::Option* add_strict(CLI::App& command, bool& strict);
 
 /// Adds the setting's option with its help, limits and default.
 CLI::Option* add_setting(CLI::App& command, const Setting& setting);
+
+/// Destinations of the options that choose the view of a scene.
+struct ViewArguments {
+    std::string &camera, &sensor, &crop;
+};
+/// Adds --camera, --sensor and --crop, whose text parse_crop() reads.
+void add_view_options(CLI::App& command, ViewArguments words);
+
+/// Adds --pixel-format.
+CLI::Option* add_pixel_format(CLI::App& command, std::optional<PixelFormat>& format);
 
 /// Adds -m for one method.
 CLI::Option* add_method(CLI::App& command, Method& method);

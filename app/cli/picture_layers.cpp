@@ -1,5 +1,6 @@
 #include "app/cli/picture_layers.h"
 
+#include "app/cli/pixel_format.h"
 #include "app/cli/terminal.h"
 #include "recon/guided/demodulation.h"
 #include "render/estimator/basis.h"
@@ -221,7 +222,7 @@ namespace {
 
 void write_as(const std::filesystem::path& output, const std::string& extension, const ExrFile& file) {
     if (extension == ".png")
-        write_png(output, file.layers.front().image);
+        write_first_layer(output, file);
     else
         write_exr(output, file);
 }

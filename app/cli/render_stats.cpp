@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include <fmt/core.h>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 namespace tessera {
@@ -42,9 +43,18 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
         command += " -D " + shell_word(name + "=" + value);
     if (!source.camera.empty())
         command += " --camera " + shell_word(source.camera.string());
+    if (!source.sensor.empty())
+        command += " --sensor " + shell_word(source.sensor);
+    glm::ivec2 film = render.size();
+    if (const CropWindow& crop = render.camera().crop; !crop.empty()) {
+        const glm::dvec2 scale = glm::dvec2(render.size()) / glm::dvec2(crop.size);
+        const auto scaled = [&](glm::ivec2 pixels) { return glm::ivec2(glm::round(glm::dvec2(pixels) * scale)); };
+        film = scaled(crop.film);
+        command += " --crop " + text_of({film, scaled(crop.offset), render.size()});
+    }
     if (settings.method != defaults.method)
         command += fmt::format(" -m {}", short_name(settings.method));
-    command += fmt::format(" --size {}x{}", render.size().x, render.size().y) + option_words(defaults, settings);
+    command += fmt::format(" --size {}x{}", film.x, film.y) + option_words(defaults, settings);
     if (settings.seed != defaults.seed)
         command += fmt::format(" --seed {}", settings.seed);
     return command + fmt::format(" --inspect {},{},{}", sample.x, sample.y, sample.pass);

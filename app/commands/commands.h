@@ -7,6 +7,7 @@
 #include "app/experiment/references.h"
 #include "recon/image.h"
 #include "recon/picture/reconstruct.h"
+#include "render/scene/sensor.h"
 #include "render/settings/settings.h"
 #include "ui/jobs/scene_load.h"
 #include "ui/state/document.h"
@@ -57,7 +58,7 @@ struct ViewOptions {
     std::filesystem::path jobs;       ///< output folder of a bench, sweep or stability run to follow; empty: none
     bool shows_gallery = true;        ///< at start, if no scene is given
     std::filesystem::path screenshot; ///< PNG of the window at `spp` samples, then the viewer ends; empty: none
-    std::filesystem::path script;     ///< script file to play; empty: none
+    std::filesystem::path script;     ///< script file to play; "-": standard input; empty: none
     bool log_actions = false;         ///< prints every change of state and the positions of controls to stdout
 };
 
@@ -76,30 +77,33 @@ enum class ClockChoice { wall, cpu };
 
 /// Options of `tessera render`.
 struct RenderOptions {
-    SceneSource scene;
     RenderSettings settings;
     std::optional<int> max_depth; ///< empty: the scene's own
     std::optional<int> spp;       ///< passes; empty: limited by time, or default_spp
     std::optional<double> time;   ///< seconds of rendering, without loading
     ClockChoice clock = ClockChoice::wall;
-    std::optional<glm::ivec2> size; ///< empty: the scene's own
+    std::optional<glm::ivec2> size;    ///< of the film; empty: the scene's own
+    std::optional<PixelFormat> format; ///< empty: the scene's own
     ReconstructionLayers
         layers;      ///< no norms: guided for methods with gradients, weighted for basis components, else none
     int threads = 0; ///< 0: one per hardware thread
+    std::filesystem::path cameras; ///< camera path: one picture of each scene for each camera; empty: none
     std::filesystem::path output;
     std::filesystem::path stats; ///< empty: none
 };
 
-/// Renders a picture. Returns an ExitCode. Throws BadInput, LoadError or another std::exception before anything
-/// is written.
-int run_render(const RenderOptions& options);
+/// Renders a picture of each scene and camera. Returns an ExitCode. For one picture, throws BadInput, LoadError or
+/// another std::exception before anything is written. Several pictures have numbered names (picture_names.h); an
+/// error of a scene or picture is printed, and the next ones are rendered.
+/// @param scenes  not empty
+int run_render(const RenderOptions& options, const std::vector<SceneSource>& scenes);
 
 /// Options of `tessera reference`.
 struct ReferenceOptions {
     SceneSource scene;
     ReferenceRecipe recipe;
     std::optional<int> max_depth;   ///< empty: the scene's own
-    std::optional<glm::ivec2> size; ///< empty: the scene's own
+    std::optional<glm::ivec2> size; ///< of the film; empty: the scene's own
     bool is_shard = false;          ///< write a shard file, even if it is the only shard
     int threads = 0;                ///< 0: one per hardware thread
     std::filesystem::path output;
@@ -111,7 +115,7 @@ int run_reference(const ReferenceOptions& options);
 
 /// Command-line arguments of `tessera reference`.
 struct ReferenceArguments {
-    std::string scene, camera, share;
+    std::string scene, camera, sensor, crop, share;
     glm::ivec2 size{0}; ///< 0: not given
     std::vector<std::string> definitions;
     bool strict = false;

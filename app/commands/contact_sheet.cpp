@@ -35,7 +35,8 @@ Render render_for(const ContactSheetOptions& options, const OpenedScene& opened,
     RenderSettings settings;
     settings.method = method;
     settings.max_depth = std::min(settings.max_depth, opened.scene->max_depth());
-    const glm::ivec2 size = options.size.x > 0 ? options.size : usual_size(opened.scene->size());
+    const glm::ivec2 size =
+        options.size.x > 0 ? opened.scene->size(options.size) : usual_size(opened.scene->size());
     Render render(opened.scene, opened.scene->camera(), size, settings);
     Progress progress{std::string(long_name(method))};
     do {

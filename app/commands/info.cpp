@@ -133,6 +133,10 @@ void print_scene(const Scene& scene, const TextureSummary& textures) {
     fmt::print("textures   {} bitmaps, {} procedural\n", textures.bitmaps, textures.procedural);
     fmt::print("lights     {}\n", lights_of(scene));
     fmt::print("film       {}x{}\n", scene.size().x, scene.size().y);
+    if (const CropWindow& crop = scene.camera().crop; !crop.empty())
+        fmt::print("crop       {} of {}x{}\n", text_of(crop), crop.film.x, crop.film.y);
+    if (scene.description().sensors.size() > 1)
+        fmt::print("sensors    {}\n", list_of(scene.description().sensors));
     fmt::print("max depth  {}\n", scene.max_depth());
 }
 

@@ -34,7 +34,7 @@ void add_reference(CLI::App& app, ReferenceArguments& words) {
     ReferenceRecipe& recipe = words.options.recipe;
     forbid_empty(command.add_option("scene", words.scene, "Mitsuba scene, XML"))->required();
     command.add_option("-D", words.definitions, "name=value: replaces the <default> of that name")->take_all();
-    command.add_option("--camera", words.camera, "JSON file with a camera, as saved in the viewer");
+    add_view_options(command, {words.camera, words.sensor, words.crop});
     add_picture_options(command, {words.size, recipe.settings, recipe.reconstruction, words.options.threads});
     add_strict(command, words.strict);
     add_alpha(command, recipe.reconstruction);
@@ -67,7 +67,10 @@ PassShard parse_share(const std::string& text) {
 
 ReferenceOptions parse_reference(const CLI::App& command, const ReferenceArguments& words) {
     ReferenceOptions options = words.options;
-    options.scene = {words.scene, parse_variables(words.definitions), words.camera, words.strict};
+    options.scene = {words.scene, parse_variables(words.definitions), words.camera, words.strict, words.sensor,
+                     {}};
+    if (!words.crop.empty())
+        options.scene.crop = parse_crop(words.crop, words.size);
     if (command.count("--max-depth"))
         options.max_depth = options.recipe.settings.max_depth;
     if (command.count("--size"))
@@ -107,7 +110,7 @@ int run_reference(const ReferenceOptions& options) {
     const OpenedScene opened = open_scene(options.scene, pool);
     print_notes(opened.notes);
     ReferenceRecipe recipe = options.recipe;
-    recipe.size = options.size.value_or(opened.scene->size());
+    recipe.size = opened.scene->size(options.size);
     recipe.settings.max_depth = options.max_depth.value_or(std::min(opened.scene->max_depth(), most_edges));
 
     const InterruptGuard guard;

@@ -3,17 +3,24 @@
 #include "app/cli/opened_scene.h"
 #include "app/cli/option_values.h"
 #include "app/cli/picture_layers.h"
+#include "app/cli/picture_names.h"
+#include "app/cli/pixel_format.h"
 #include "app/cli/render_stats.h"
 #include "app/cli/terminal.h"
 #include "app/commands/commands.h"
 #include "render/io/available_memory.h"
 #include "render/io/files.h"
 #include "render/io/json_text.h"
+#include "render/io/text.h"
+#include "render/scene/camera_path.h"
 #include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -36,7 +43,7 @@ Norm default_norm(const RenderSettings& s) {
 }
 
 ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
-    ResolvedRender wanted{options.settings, options.size.value_or(scene.size()), 0, options.layers};
+    ResolvedRender wanted{options.settings, scene.size(options.size), 0, options.layers};
     wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), most_edges));
     wanted.spp = options.spp.value_or(options.time ? 0 : default_spp);
     if (wanted.layers.norms.empty())
@@ -102,49 +109,110 @@ ExrFile layers_of(Render& render, const ResolvedRender& wanted, bool is_exr, Thr
     }
 }
 
-} // namespace
-
-int run_render(const RenderOptions& options) {
-    check(options.settings);
-    check_available(options.layers.norms);
-    check_outputs({{"-o", options.output}, {"--stats", options.stats}},
-                  {{"the scene", options.scene.file}, {"--camera", options.scene.camera}});
-    check_writable(options.output);
-    check_picture_name(options.output, options.layers);
-    if (!options.stats.empty())
-        check_writable(options.stats);
-    ThreadPool pool(options.threads);
-    const OpenedScene opened = open_scene(options.scene, pool);
-    print_notes(opened.notes);
-
-    const ResolvedRender wanted = resolve(options, *opened.scene);
+/// Renders and writes one picture.
+/// @param outputs  options with the files of this picture
+int render_picture(const RenderOptions& outputs, const SceneSource& source, const OpenedScene& opened,
+                   const Camera& camera, ThreadPool& pool) {
+    const ResolvedRender wanted = resolve(outputs, *opened.scene);
     ask_for_picture(wanted, pool.size());
-    Render render(opened.scene, opened.scene->camera(), wanted.size, wanted.settings);
-    with_memory_for("the render", [&] { render_passes(options, wanted, render, pool); });
-    warn_of_invalid_samples(options.scene, render);
+    Render render(opened.scene, camera, wanted.size, wanted.settings);
+    with_memory_for("the render", [&] { render_passes(outputs, wanted, render, pool); });
+    warn_of_invalid_samples(source, render);
 
+    const PixelFormat format = outputs.format.value_or(opened.scene->description().format);
+    const Image<float> coverage = has_alpha(format) ? render.coverage() : Image<float>();
     std::vector<ReconstructionStats> recon;
     std::string failure;
-    ExrFile file = layers_of(render, wanted, extension_of(options.output) == ".exr", pool, recon, failure);
+    ExrFile file = layers_of(render, wanted, extension_of(outputs.output) == ".exr", pool, recon, failure);
     const nlohmann::json settings =
-        settings_json(options.scene, wanted.settings, wanted.size, render.spp(), options.layers.settings);
+        settings_json(source, wanted.settings, wanted.size, render.spp(), outputs.layers.settings);
     file.attributes["tessera:version"] = TESSERA_VERSION;
     file.attributes["tessera:settings"] = to_text(settings);
     record_redistributed(file, recon);
-    write_picture(options.output, file);
+    set_pixel_format(file, format, coverage);
+    write_picture(outputs.output, file);
     const bool is_finite = warn_of_bad_pixels(file);
-    if (!options.stats.empty()) {
+    if (!outputs.stats.empty()) {
         nlohmann::json stats = stats_json(settings, opened, render, pool.size(), recon, interrupted());
-        stats["first_refused"] = invalid_samples_json(options.scene, render);
-        write_text(options.stats, to_text(stats, 2) + "\n");
+        stats["first_refused"] = invalid_samples_json(source, render);
+        write_text(outputs.stats, to_text(stats, 2) + "\n");
     }
-    fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", options.output.string(), render.spp(),
+    fmt::print(stderr, "{}: {} spp in {:.2f} s ({:.2f} CPU s)\n", outputs.output.string(), render.spp(),
                render.seconds(), render.cpu_seconds());
-    print_redistributed(options.output, recon);
+    print_redistributed(outputs.output, recon);
     if (!failure.empty())
         throw OutOfMemory(
-            fmt::format("{}: {}; the picture is not reconstructed", options.output.string(), failure));
+            fmt::format("{}: {}; the picture is not reconstructed", outputs.output.string(), failure));
     return is_finite ? exit_ok : exit_failure;
+}
+
+/// Does `work` and returns its ExitCode. With `goes_on`, prints an error and returns exit_failure instead of
+/// throwing it.
+template <class Work>
+int attempt(bool goes_on, const Work& work) {
+    if (!goes_on)
+        return work();
+    try {
+        return work();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "tessera: {}\n", message_of(error));
+        return exit_failure;
+    }
+}
+
+/// Renders the pictures of one scene.
+/// @param frames  a camera for each picture; empty: one picture from the scene's camera
+int render_scene(const RenderOptions& options, const SceneSource& source, const std::vector<Camera>& frames,
+                 bool goes_on, ThreadPool& pool) {
+    check_outputs({{"-o", options.output}, {"--stats", options.stats}},
+                  {{"the scene", source.file}, {"--camera", source.camera}, {"--cameras", options.cameras}});
+    check_writable(options.output);
+    if (!options.stats.empty())
+        check_writable(options.stats);
+    const OpenedScene opened = open_scene(source, pool);
+    print_notes(opened.notes);
+    if (frames.empty())
+        return render_picture(options, source, opened, opened.scene->camera(), pool);
+    int result = exit_ok;
+    for (std::size_t i = 0; i < frames.size() && (i == 0 || !interrupted()); ++i) {
+        RenderOptions frame = options;
+        frame.output = frame_name(options.output, static_cast<int>(i));
+        if (!options.stats.empty())
+            frame.stats = frame_name(options.stats, static_cast<int>(i));
+        const Camera camera = with_film_of(frames[i], opened.scene->camera());
+        result = std::max(result,
+                          attempt(goes_on, [&] { return render_picture(frame, source, opened, camera, pool); }));
+    }
+    return result;
+}
+
+} // namespace
+
+int run_render(const RenderOptions& options, const std::vector<SceneSource>& scenes) {
+    check(options.settings);
+    check_available(options.layers.norms);
+    check_picture_name(options.output, options.layers);
+    if (options.format && options.layers.buffers)
+        check_has_rgb(*options.format);
+    std::vector<Camera> frames;
+    if (!options.cameras.empty())
+        frames = read_camera_path(options.cameras);
+    std::vector<std::string> names;
+    for (const SceneSource& source : scenes)
+        names.push_back(scene_name(source));
+    const std::vector<std::filesystem::path> outputs = scene_outputs(options.output, names),
+                                             stats = scene_outputs(options.stats, names);
+    ThreadPool pool(options.threads);
+    const bool goes_on = scenes.size() > 1 || frames.size() > 1;
+    int result = exit_ok;
+    for (std::size_t i = 0; i < scenes.size() && (i == 0 || !interrupted()); ++i) {
+        RenderOptions of_scene = options;
+        of_scene.output = outputs[i];
+        of_scene.stats = stats[i];
+        result = std::max(
+            result, attempt(goes_on, [&] { return render_scene(of_scene, scenes[i], frames, goes_on, pool); }));
+    }
+    return result;
 }
 
 } // namespace tessera

@@ -25,6 +25,7 @@ MeasuredScene::MeasuredScene(SceneSource source, const std::vector<Setup>& setup
         ReferenceRecipe of_setup = recipe;
         of_setup.size = setup.settings.size;
         of_setup.settings.max_depth = setup.settings.render.max_depth;
+        of_setup.settings.filter = setup.settings.render.filter;
         references_.emplace(key, FolderReference(folder, name_, of_setup));
     }
 }

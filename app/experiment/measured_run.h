@@ -59,9 +59,8 @@ Measurement measurement_from_json(const nlohmann::json& json);
 /// A scene of an experiment with its references.
 class MeasuredScene {
 public:
-    /// Creates one reference for each size and depth of the setups, in `folder`. Missing references use the
-    /// recipe with that size and depth. Throws BadInput if the scene file does not exist, and as FolderReference
-    /// does.
+    /// Creates one reference for each size, depth and filter of the setups, in `folder`. Missing references use
+    /// the recipe with these. Throws BadInput if the scene file does not exist, and as FolderReference does.
     MeasuredScene(SceneSource source, const std::vector<Setup>& setups, const std::filesystem::path& folder,
                   const ReferenceRecipe& recipe);
 
@@ -80,13 +79,15 @@ public:
     }
     /// Returns the image of that reference, which must be complete.
     const ReferenceImage& reference(const PictureSettings& settings) const;
-    /// Returns the references in order of size and depth.
+    /// Returns the references in order of size, depth and filter.
     std::vector<const FolderReference*> references() const;
     std::vector<FolderReference*> references();
 
 private:
-    using Key = std::array<int, 3>; // width, height, depth
-    static Key key_of(const PictureSettings& s) { return {s.size.x, s.size.y, s.render.max_depth}; }
+    using Key = std::array<int, 4>; // width, height, depth, filter
+    static Key key_of(const PictureSettings& s) {
+        return {s.size.x, s.size.y, s.render.max_depth, static_cast<int>(s.render.filter)};
+    }
 
     SceneSource source_;
     std::string name_;

@@ -59,7 +59,7 @@ bool render_shard(const std::filesystem::path& output, const SceneSource& source
 
 FolderReference::FolderReference(const std::filesystem::path& folder, const std::string& scene_name,
                                  ReferenceRecipe recipe)
-    : path_(reference_file(folder, scene_name, recipe.size, recipe.settings.max_depth)),
+    : path_(reference_file(folder, scene_name, recipe.size, recipe.settings.max_depth, recipe.settings.filter)),
       recipe_(std::move(recipe)) {
     look();
 }

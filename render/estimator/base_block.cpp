@@ -46,21 +46,24 @@ void BaseBlock::see_from(const Pass& pass, const Tracer& tracer, int position) {
         first_vertex_of_[index(p.x, p.y)] = static_cast<std::int16_t>(i);
         trace_first_vertex(tracer, pass.camera_ray(p.x, p.y, from), pass.pixel_width(),
                            pass.random(p.x, p.y, number_), first_vertices_[i]);
+        first_vertices_[i].set_weight(from.weight);
         reject_if_invalid(pass, tracer, p, first_vertices_[i]);
     }
 }
 
 void MeanOfPaths::add(const Pass& pass, const BasePath& path, int count) {
     const Rgb a = pass.albedo_of(path);
-    const float share = 1 / static_cast<float>(count);
-    coefficient += tessera::coefficient(path.radiance(), a) * share;
-    moments.add(a, path.radiance(), share, share);
+    const float share = 1 / static_cast<float>(count), weighted_share = path.weight * share;
+    coefficient += tessera::coefficient(path.radiance(), a) * weighted_share;
+    moments.add(a, path.radiance(), share, weighted_share);
     very_direct += path.very_direct * share;
+    coverage += pass.coverage_of(path) * share;
 }
 
 void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const CameraSample& from, BasePath& path,
                  int number) {
     trace_base_path(tracer, pass.camera_ray(x, y, from), pass.pixel_width(), pass.random(x, y, number), path);
+    path.set_weight(from.weight);
     reject_if_invalid(pass, tracer, {x, y}, path);
 }
 

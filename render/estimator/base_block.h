@@ -21,6 +21,7 @@ void trace_pixel(const Pass& pass, const Tracer& tracer, int x, int y, const Cam
 /// Mean over several base paths of a pixel that reuses no paths, theory (21).
 struct MeanOfPaths {
     Rgb coefficient{0}, very_direct{0};
+    float coverage = 0;
     AlbedoMoments<Rgb> moments; ///< of albedo and radiance
 
     /// Adds one of `count` paths.

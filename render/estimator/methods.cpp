@@ -26,8 +26,9 @@ void add_sample(const Pass& pass, int x, int y, PixelSample sample, Worker& work
     film.add(x, y, pass.index, sample, worker.counters);
 }
 
-/// Returns the basis components of the radiance of pixel (x, y) from its own base path; empty without such a
-/// basis.
+/// Returns the basis components of the radiance of pixel (x, y) from its own base path, with its filter weight;
+/// empty without such a basis.
+/// @param coefficient  without filter weight
 std::span<const Rgb> own_components(const Pass& pass, int x, int y, Rgb coefficient, Rgb albedo, Worker& worker,
                                     const Film& film) {
     if (!is_expanded(pass.settings))
@@ -36,6 +37,8 @@ std::span<const Rgb> own_components(const Pass& pass, int x, int y, Rgb coeffici
     worker.reuse.keep(worker.base.at(x, y), 0, worker.own);
     worker.own_components.resize(static_cast<std::size_t>(worker.own.components()));
     worker.own.expand(0, coefficient, film.projection(x, y), worker.own_components.data());
+    for (Rgb& component : worker.own_components)
+        component *= worker.base.at(x, y).weight;
     return worker.own_components;
 }
 
@@ -47,7 +50,9 @@ void render_pt(const Pass& pass, PixelRect block, Worker& worker, Film& film) {
         for (int x = area.x0; x < area.x1; ++x) {
             trace_pixel(pass, worker.tracer, x, y, pass.camera_sample({x, y}), worker.path);
             record_light(pass, worker.path, worker.found);
-            const PixelSample sample{worker.path.radiance(), Rgb(0), Rgb(0), worker.path.very_direct};
+            PixelSample sample{worker.path.weight * worker.path.radiance(), Rgb(0), Rgb(0),
+                               worker.path.very_direct};
+            sample.coverage = pass.coverage_of(worker.path);
             add_sample(pass, x, y, sample, worker, film);
         }
 }
@@ -63,7 +68,8 @@ void trace_base_paths(const Pass& pass, PixelRect area, PixelRect with_others, W
 void add_reused(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     const BasePath& path = worker.base.at(x, y);
     const Rgb albedo = pass.albedo_of(path);
-    PixelSample sample{coefficient(path.radiance(), albedo),
+    const Rgb own = coefficient(path.radiance(), albedo);
+    PixelSample sample{path.weight * own,
                        Rgb(0),
                        Rgb(0),
                        path.very_direct,
@@ -73,7 +79,8 @@ void add_reused(const Pass& pass, int x, int y, Worker& worker, Film& film) {
     if (worker.set_means.has(x, y))
         worker.set_means.take_primal(x, y, sample);
     else
-        sample.components = own_components(pass, x, y, sample.primal, albedo, worker, film);
+        sample.components = own_components(pass, x, y, own, albedo, worker, film);
+    sample.coverage = pass.coverage_of(path);
     worker.set_means.take_gradients(x, y, sample);
     add_sample(pass, x, y, sample, worker, film);
 }
@@ -166,6 +173,7 @@ void add_alone(const Pass& pass, PixelRect inner, PixelRect all, int count, Work
             if (y + 1 < all.y1)
                 sample.dy = worker.base.mean(x, y + 1).coefficient - here.coefficient;
             sample.paths = count;
+            sample.coverage = here.coverage;
             sample.luminance = worker.reuse.arriving_luminance(worker.base.at(x, y));
             add_sample(pass, x, y, sample, worker, film);
         }

@@ -26,23 +26,27 @@ int begin_of_nets(const LearnedReuse& learned, int pass) {
 
 Pass::Pass(const Scene& scene_, const Camera& camera, glm::ivec2 size_, const RenderSettings& settings_,
            const LearnedReuse& learned, int index_)
-    : scene(scene_), settings(settings_), size(size_), index(index_), grid(size_, settings_, learned, index_),
+    : scene(scene_), settings(settings_), size(size_), index(index_),
+      grid(size_, settings_, learned, index_, Projection(camera, size_).film_offset()),
       guiding_fraction(guiding_fraction_of(size_, settings_, learned.guiding(), index_)),
-      projection_(camera, size_), has_lens_(camera.aperture_radius > 0),
+      projection_(camera, size_), film_offset_(projection_.film_offset()),
+      filter_(settings_.filter == FilterKind::scene ? camera.filter : default_filter(settings_.filter)),
+      has_lens_(camera.aperture_radius > 0),
       numbers_(settings_.seed, index_, begin_of_nets(learned, index_), camera_positions(settings_)) {}
 
 /// Returns the key of a pixel's net. Blocks move with the grid of tiles, but the squares of 8 x 8 blocks keep
 /// their keys, so few pixels change from one net to another between passes.
 std::uint32_t Pass::place_of(glm::ivec2 pixel) const {
     constexpr int blocks = 8;
-    const glm::ivec2 at = settings.method == Method::pt ? pixel : grid.block_of(pixel) / blocks;
+    const glm::ivec2 at = settings.method == Method::pt ? pixel + film_offset_ : grid.block_of(pixel) / blocks;
     return pixel_number(at);
 }
 
 CameraSample Pass::sample_at(int position, glm::ivec2 inside, int path) const {
     const std::uint32_t place = place_of(inside);
-    return {numbers_.subpixel(place, path, position),
-            has_lens_ ? sample_disk(numbers_.lens(place, path, position)) : glm::vec2(0)};
+    const FilterSampler::Point point = filter_.sample(numbers_.subpixel(place, path, position));
+    return {point.subpixel, has_lens_ ? sample_disk(numbers_.lens(place, path, position)) : glm::vec2(0),
+            point.weight};
 }
 
 namespace {
@@ -58,12 +62,13 @@ CameraSample Pass::feature_camera_sample(std::uint64_t subpixel, std::uint64_t l
     const auto at = [&](std::uint64_t shift, std::uint64_t net) {
         return unit_square(shift ^ net_point(point, net));
     };
-    return {at(subpixel, features_in_pixel), has_lens_ ? sample_disk(at(lens, features_on_lens)) : glm::vec2(0)};
+    const FilterSampler::Point seen = filter_.sample(at(subpixel, features_in_pixel));
+    return {seen.subpixel, has_lens_ ? sample_disk(at(lens, features_on_lens)) : glm::vec2(0), seen.weight};
 }
 
 /// Returns the digital shifts of all feature samples of a pixel. They belong to no pass.
 Random Pass::shift_of_features(int x, int y) const {
-    return {settings.seed, pixel_number({x, y}), 0xffffffffu};
+    return {settings.seed, pixel_number(glm::ivec2(x, y) + film_offset_), 0xffffffffu};
 }
 
 Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
@@ -72,8 +77,10 @@ Rgb Pass::very_direct(const Tracer& tracer, int x, int y) const {
     constexpr std::uint32_t rays = edge_emitter_rays;
     const std::uint32_t first = static_cast<std::uint32_t>(index) * rays;
     Rgb sum(0);
-    for (std::uint32_t i = 0; i < rays; ++i)
-        sum += tracer.very_direct_along(camera_ray(x, y, feature_camera_sample(subpixel, lens, first + i)));
+    for (std::uint32_t i = 0; i < rays; ++i) {
+        const CameraSample from = feature_camera_sample(subpixel, lens, first + i);
+        sum += from.weight * tracer.very_direct_along(camera_ray(x, y, from));
+    }
     return sum / static_cast<float>(rays);
 }
 
@@ -83,11 +90,16 @@ Rgb Pass::albedo_of(const BasePath& path) const {
     return path.empty() ? Rgb(0) : path.albedo;
 }
 
+float Pass::coverage_of(const BasePath& path) const {
+    const bool sees = !path.empty() || (scene.lights().environment() && !scene.hides_emitters());
+    return sees ? path.weight : 0;
+}
+
 FeatureSample Pass::feature_sample(const Tracer& tracer, int x, int y, int point) const {
     const Random shift = shift_of_features(x, y);
     const CameraSample sample = feature_camera_sample(
         shift.digits(0, Draw::direction), shift.digits(1, Draw::direction), static_cast<std::uint32_t>(point));
-    const Random numbers(settings.seed, pixel_number({x, y}),
+    const Random numbers(settings.seed, pixel_number(glm::ivec2(x, y) + film_offset_),
                          0xfffffffcu - static_cast<std::uint32_t>(point)); // no pass has this number
     return feature_sample_along(tracer, camera_ray(x, y, sample), numbers);
 }
@@ -97,13 +109,13 @@ bool Pass::first_vertex(const Tracer& tracer, int x, int y, int point, Vertex& s
     const CameraSample sample =
         feature_camera_sample(middle ^ net_point(0, features_in_pixel), middle ^ net_point(0, features_on_lens),
                               static_cast<std::uint32_t>(point));
-    return tracer.closest(camera_ray(x, y, sample), seen, RayKind::camera, tracer.first_lookup());
+    return tracer.closest(tracer.visible_part(camera_ray(x, y, sample)), seen, RayKind::camera,
+                          tracer.first_lookup());
 }
 
 std::size_t most_blocks(glm::ivec2 size, const RenderSettings& settings) {
     const int edge = block_edge_of(settings);
-    const glm::ivec2 most =
-        (size + settings.tile + edge - 1) / edge; // tiles begin up to one tile before the image
+    const glm::ivec2 most = (size + 2 * (edge - 1)) / edge; // the first block begins less than a block before
     return static_cast<std::size_t>(most.x) * static_cast<std::size_t>(most.y);
 }
 

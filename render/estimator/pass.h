@@ -20,8 +20,9 @@ struct BasePath;
 
 /// Position of a camera ray in its pixel and on the lens.
 struct CameraSample {
-    glm::vec2 subpixel; ///< within the pixel, [0, 1)^2
+    glm::vec2 subpixel; ///< from the pixel's top left corner, pixels; within [0, 1)^2 for the box filter
     glm::vec2 lens{0};  ///< from the centre, in radii of the lens
+    float weight = 1;   ///< of the reconstruction filter (FilterSampler::Point)
 };
 
 /// One sample per pixel of the whole image: the data that all blocks of a pass use.
@@ -40,11 +41,11 @@ public:
     const float guiding_fraction; ///< of the base paths: later passes learn guides from these
 
     /// Returns the camera sample of a pixel. All pixels whose base paths are reused within one block have the
-    /// same sample, including the block's border. So the values of the box filter cancel in gradients [Bauszat
-    /// 2017, 3.2], and all these pixels see the scene through one pinhole, with a sharp picture. PT's pixels have
-    /// samples of their own. All samples are nets over the passes with different digital shifts: one net for each
-    /// pixel of PT, or for each square of 8 x 8 blocks. With the same few positions for a whole image, edges
-    /// parallel to pixel rows would be too bright or too dark along their whole length.
+    /// same sample, including the block's border. So the values of the reconstruction filter cancel in gradients
+    /// [Bauszat 2017, 3.2], and all these pixels see the scene through one pinhole, with a sharp picture. PT's
+    /// pixels have samples of their own. All samples are nets over the passes with different digital shifts: one
+    /// net for each pixel of PT, or for each square of 8 x 8 blocks. With the same few positions for a whole
+    /// image, edges parallel to pixel rows would be too bright or too dark along their whole length.
     /// @param path  index among several paths of a pixel without reuse; only path 0 can be reused
     CameraSample camera_sample(glm::ivec2 pixel, int path = 0) const {
         return sample_at(PassNumbers::only, pixel, path);
@@ -59,7 +60,7 @@ public:
                                                                                    : 1;
     }
     /// Returns the position at which a pixel's base path is reused, if any pixel of its set is mixed.
-    int turn(glm::ivec2 pixel) const { return numbers_.turn(pixel); }
+    int turn(glm::ivec2 pixel) const { return numbers_.turn(pixel + film_offset_); }
     /// Returns the camera sample of a pixel's base path, at the position of its turn if the pixel is mixed.
     /// @param inside  any pixel of the block whose pixels reuse the path
     CameraSample base_sample(glm::ivec2 pixel, glm::ivec2 inside, int path = 0) const {
@@ -81,6 +82,9 @@ public:
     /// Returns the albedo a of theory (27) by which a base path's radiance is divided: that of x_1, or of the
     /// surface that mirrors show there; black where the path sees nothing; 1 if settings.basis has no albedo.
     Rgb albedo_of(const BasePath& path) const;
+    /// Returns the alpha of a base path with its filter weight: 0 if it sees nothing, as in Mitsuba. A visible
+    /// environment counts as something.
+    float coverage_of(const BasePath& path) const;
     /// Takes feature sample `point` of a pixel. The points of a pixel are a net that is independent of the
     /// passes' samples, so means of albedos are, too.
     FeatureSample feature_sample(const Tracer& tracer, int x, int y, int point) const;
@@ -90,12 +94,15 @@ public:
 
     PixelWidth pixel_width() const { return projection_.pixel_width(); }
     const Projection& projection() const { return projection_; }
+    const FilterSampler& filter() const { return filter_; }
     bool has_lens() const { return has_lens_; }
 
     /// Returns the random numbers of a pixel's path; `path` as in camera_sample(). The numbers at x_1 are a net
     /// over blocks of pixels and over the passes with the same LearnedReuse. They are independent of the earlier
     /// passes, from which LearnedReuse learned.
-    Random random(int x, int y, int path = 0) const { return numbers_.of_path({x, y}, path); }
+    Random random(int x, int y, int path = 0) const {
+        return numbers_.of_path(glm::ivec2(x, y) + film_offset_, path);
+    }
 
 private:
     std::uint32_t place_of(glm::ivec2 pixel) const; // for PassNumbers
@@ -103,6 +110,8 @@ private:
     CameraSample feature_camera_sample(std::uint64_t subpixel, std::uint64_t lens, std::uint32_t point) const;
 
     Projection projection_;
+    glm::ivec2 film_offset_; ///< random numbers are those of the pixel of the whole film
+    FilterSampler filter_;
     bool has_lens_;
     PassNumbers numbers_;
 };

@@ -26,7 +26,7 @@ void show_very_direct(const Pass& pass, int view, PixelRect block, const Tracer&
             const int row = pass.has_lens() ? view / n : view; // all cells with a lens, else those of a diagonal
             const glm::vec2 cell((x + 1 + view) % n, (y + 1 + row) % n);
             const glm::vec2 in_cell = (cell + 0.5f) / static_cast<float>(n);
-            const Ray ray = pass.camera_ray(x, y, {in_cell, sample_disk(in_cell)});
+            const Ray ray = pass.camera_ray(x, y, {pass.filter().sample(in_cell).subpixel, sample_disk(in_cell)});
             picture(x + 1, y + 1) = tracer.very_direct_along(ray);
         }
 }

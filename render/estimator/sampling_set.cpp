@@ -13,8 +13,10 @@ void SamplingSet::expand(const Film& film) {
     components.resize(static_cast<std::size_t>(size() * arriving.components()));
     for (int i = 0; arriving.is_kept() && i < size(); ++i) {
         const glm::ivec2 p = pixels[i];
-        arriving.expand(i, coefficient(i), film.projection(p.x, p.y),
-                        components.data() + i * arriving.components());
+        Rgb* const first = components.data() + i * arriving.components();
+        arriving.expand(i, tessera::coefficient(radiance[i], albedo[i]), film.projection(p.x, p.y), first);
+        for (int l = 0; l < arriving.components(); ++l)
+            first[l] *= weight(i);
     }
 }
 
@@ -78,7 +80,7 @@ void SetMeans::see(const SamplingSet& set, int i, Pixel& pixel) {
                 kept = set.position == 0 ? 1 - share : 1, seen_share = share / static_cast<float>(set.positions);
     Seen& seen = pixel.seen;
     seen.moments *= kept;
-    seen.moments.add(set.albedo[entry], set.radiance[entry], seen_share, share);
+    seen.moments.add(set.albedo[entry], set.radiance[entry], seen_share, share * set.weight(i));
     seen.very_direct = seen.very_direct * kept + set.paths[entry]->very_direct * seen_share;
     // Means over positions that all saw the same would differ from it by rounding.
     pixel.is_mixed = pixel.is_mixed || set.paths[entry] != set.base[entry];

@@ -24,8 +24,8 @@ struct SamplingSet {
     /// g of theory (20), the number of samples for which a base path counts: 1 with one position. With several,
     /// all positions count for the same number of samples, even if they have different numbers of paths.
     std::vector<float> counts;
-    std::vector<Rgb> radiance;
-    std::vector<Rgb> albedo; ///< by which radiance is divided, at the current position
+    std::vector<Rgb> radiance; ///< along the camera rays, without filter weights
+    std::vector<Rgb> albedo;   ///< by which radiance is divided, at the current position
     std::vector<ReuseCounts> reuse;
     int positions = 1;      ///< from which the pass sees the pixels: several if any of them is mixed
     int position = 0;       ///< current one; base paths whose turn it is are reused
@@ -49,8 +49,10 @@ struct SamplingSet {
         return std::find(pixels.begin(), pixels.end(), pixel) != pixels.end();
     }
 
-    /// Returns the demodulated radiance e of entry i at the current position, theory (27).
-    Rgb coefficient(int i) const { return tessera::coefficient(radiance[i], albedo[i]); }
+    /// Returns the filter weight of entry i at the current position.
+    float weight(int i) const { return paths[i]->weight; }
+    /// Returns the demodulated radiance e of entry i at the current position, theory (27), with its filter weight.
+    Rgb coefficient(int i) const { return weight(i) * tessera::coefficient(radiance[i], albedo[i]); }
     /// Computes all basis components, theory (31), if the basis has any.
     void expand(const Film& film);
     std::span<const Rgb> components_of(int i) const {

@@ -16,18 +16,21 @@ namespace tessera {
 class TileGrid {
 public:
     /// Keeps references to settings and `learned`.
-    /// @param pass     counts from 0
-    /// @param learned  state that this pass uses
-    TileGrid(glm::ivec2 size, const RenderSettings& settings, const LearnedReuse& learned, int pass);
+    /// @param pass         counts from 0
+    /// @param learned      state that this pass uses
+    /// @param film_offset  of the image in its film, pixels, >= 0: the grid is that of the whole film
+    TileGrid(glm::ivec2 size, const RenderSettings& settings, const LearnedReuse& learned, int pass,
+             glm::ivec2 film_offset = glm::ivec2(0));
 
     /// Corner of the first tile, in (-tile, 0]. Each pass draws another origin, so no pixel is always at the edge
     /// of a tile, and the grid is not visible in the picture [Bekaert 2002; Bauszat 2017, 3.3].
     const glm::ivec2 origin;
     const glm::ivec2 size; ///< of the image
 
-    /// Returns column and row of the block of a pixel. Workers render blocks of whole tiles, or of pixels if the
-    /// method has no tiles. Pixels only reuse base paths of their own block, including those of its border.
-    glm::ivec2 block_of(glm::ivec2 pixel) const { return (pixel - block_origin) / block_edge; }
+    /// Returns column and row, in the whole film, of the block of a pixel. Workers render blocks of whole tiles,
+    /// or of pixels if the method has no tiles. Pixels only reuse base paths of their own block, including those
+    /// of its border.
+    glm::ivec2 block_of(glm::ivec2 pixel) const { return first_block_ + (pixel - block_origin) / block_edge; }
     /// Returns the pixels of a pixel's block; it may reach beyond the image.
     PixelRect block_at(glm::ivec2 pixel) const;
     const int block_edge; ///< in pixels
@@ -80,6 +83,7 @@ private:
     const RenderSettings& settings_;
     const LearnedReuse& learned_;
     int pass_;
+    glm::ivec2 film_offset_, first_block_;
 };
 
 /// Draws the origin of the grid of tiles for a pass.
@@ -101,10 +105,18 @@ inline int block_edge_of(const RenderSettings& settings) {
     return reuses_paths(settings.method) ? settings.tile * std::max(1, usual / settings.tile) : usual;
 }
 
-inline TileGrid::TileGrid(glm::ivec2 size_, const RenderSettings& settings, const LearnedReuse& learned, int pass)
-    : origin(origin_of(settings, pass)), size(size_), block_edge(block_edge_of(settings)),
-      block_origin(reuses_paths(settings.method) ? origin : glm::ivec2(0)), settings_(settings), learned_(learned),
-      pass_(pass) {}
+/// Returns the offset of an image in the grid of squares that the film's tiles or blocks begin, pixels, >= 0.
+inline glm::ivec2 offset_in_grid(const RenderSettings& settings, int pass, glm::ivec2 film_offset) {
+    return reuses_paths(settings.method) ? film_offset - origin_of(settings, pass) : film_offset;
+}
+
+inline TileGrid::TileGrid(glm::ivec2 size_, const RenderSettings& settings, const LearnedReuse& learned, int pass,
+                          glm::ivec2 film_offset)
+    : origin(-((film_offset - origin_of(settings, pass)) % settings.tile)), size(size_),
+      block_edge(block_edge_of(settings)),
+      block_origin(-(offset_in_grid(settings, pass, film_offset) % block_edge)), settings_(settings),
+      learned_(learned), pass_(pass), film_offset_(film_offset),
+      first_block_(offset_in_grid(settings, pass, film_offset) / block_edge) {}
 
 inline PixelRect TileGrid::block_at(glm::ivec2 pixel) const {
     return square_at(pixel, block_origin, block_edge);
@@ -135,7 +147,8 @@ inline void TileGrid::shuffle_columns(PixelRect tile, std::vector<int>& columns)
     columns.resize(static_cast<std::size_t>(tile.width()));
     std::iota(columns.begin(), columns.end(), 0);
     // The seed differs from that of any path. A tile may begin left of or above the image.
-    const Random random(settings_.seed ^ 0x7469'6c65'7300'0000u, pixel_number({tile.x0, tile.y0}),
+    const Random random(settings_.seed ^ 0x7469'6c65'7300'0000u,
+                        pixel_number(glm::ivec2(tile.x0, tile.y0) + film_offset_),
                         static_cast<std::uint32_t>(pass_));
     for (int i = tile.width() - 1; i > 0; --i) {
         const float u = random.draw(i, Draw::direction);

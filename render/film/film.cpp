@@ -38,6 +38,7 @@ void add_entries(Image<Entry>& into, const Image<Entry>& other) {
 void Film::PixelSums::operator+=(const PixelSums& other) {
     primal += other.primal;
     very_direct += other.very_direct;
+    coverage += other.coverage;
     half_primal += other.half_primal;
     paths += other.paths;
     if (other.brightest.size > brightest.size)
@@ -101,7 +102,7 @@ void Film::keep_if_brightest(int x, int y, int pass, const PixelSample& sample) 
     Brightest found{sample.primal, x + 1 < width() ? sample.dx : Rgb(0), y + 1 < height() ? sample.dy : Rgb(0),
                     sample.albedo, sign_of(pass)};
     for (int c = 0; c < 3; ++c) // includes `beside`, so primal times albedo is the sample's radiance
-        if (found.primal[c] > 0)
+        if (found.primal[c] != 0)
             found.albedo[c] += sample.beside[c] / found.primal[c];
     for (Rgb c : {found.primal, found.dx, found.dy})
         found.size = std::max(found.size, size_of(c));
@@ -126,6 +127,7 @@ void Film::add(int x, int y, int pass, const PixelSample& sample, Counters& coun
     keep_if_brightest(x, y, pass, sample);
     sums.half_primal += sign * sample.primal;
     sums.very_direct += sample.very_direct;
+    sums.coverage += sample.coverage;
     if (!albedos_.empty()) {
         const glm::dvec3 a(sample.albedo), v = glm::dvec3(sample.primal) * a + glm::dvec3(sample.beside);
         albedos_(x, y).add(a, v, {glm::dvec3(sample.spread.variance), glm::dvec3(sample.spread.covariance)});

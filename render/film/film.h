@@ -41,6 +41,7 @@ struct PixelSample {
     Rgb beside{0};
     int paths = 1;              ///< number of base paths in that mean
     AlbedoSpread<Rgb> spread{}; ///< of albedo and radiance within that mean; 0 for one path
+    float coverage = 1;         ///< alpha: 1, or 0 if the pixel sees nothing; times filter weight
 
     /// Sets albedo, spread and `beside` of a sample that is a mean and has its primal.
     void set_albedo(const AlbedoMoments<Rgb>& mean) {
@@ -127,6 +128,8 @@ public:
     /// Returns means() at the end of a render. Frees each group of sums before it uses the next one, so all sums
     /// and all means never exist together. The film cannot be used afterwards.
     GradientImages take_means(int passes);
+    /// Returns alpha: the covered fraction of each pixel over `passes` complete passes.
+    Image<float> coverage(int passes) const;
     /// Returns the outcomes of shifts over `passes` complete passes; empty without reuse.
     ReuseMaps reuse_maps(int passes) const;
     /// Returns PixelSample::luminance of the last pass; empty without FilmBuffers::luminance.
@@ -160,6 +163,7 @@ private:
     struct PixelSums {
         Moments primal;
         glm::dvec3 very_direct{0};
+        double coverage = 0;
         Rgb half_primal{0};
         std::uint32_t paths = 0; ///< base paths
         Brightest brightest;

@@ -190,6 +190,15 @@ GradientImages Film::take_means(int passes) {
     return images;
 }
 
+Image<float> Film::coverage(int passes) const {
+    Image<float> alpha(width(), height());
+    const double scale = scale_of_means(passes);
+    std::ranges::transform(pixels_, alpha.begin(), [=](const PixelSums& sums) {
+        return static_cast<float>(std::clamp(sums.coverage * scale, 0.0, 1.0));
+    });
+    return alpha;
+}
+
 ReuseMaps Film::reuse_maps(int passes) const {
     ReuseMaps maps{reuse_, passes};
     if (!buffers_.means)

@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
+
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -38,14 +40,16 @@ void append(void* bytes, void* data, int size) {
 }
 
 // The encoder counts bytes in an int, with one extra byte a row.
-static_assert(3 * max_image_pixels + max_image_edge <= std::numeric_limits<int>::max());
+static_assert(4 * max_image_pixels + max_image_edge <= std::numeric_limits<int>::max());
 
-std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> rgb) {
+/// @param channels  bytes a pixel, 3 or 4
+std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> pixels, int channels = 3) {
     check_image_size(size.x, size.y);
-    if (rgb.size() != 3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
-        throw std::runtime_error("the image does not have three bytes a pixel");
+    if (pixels.size() !=
+        static_cast<std::size_t>(channels) * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
+        throw std::runtime_error(fmt::format("the image does not have {} bytes a pixel", channels));
     std::vector<char> bytes;
-    if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, 3, rgb.data(), 3 * size.x))
+    if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, channels, pixels.data(), channels * size.x))
         throw std::runtime_error("the image cannot be encoded");
     return bytes;
 }
@@ -68,9 +72,10 @@ std::uint8_t srgb_byte(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::min(linear, 1.0f))));
 }
 
-void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb) {
+namespace {
+
+void write_bytes(const std::filesystem::path& path, const std::vector<char>& bytes) {
     try {
-        const std::vector<char> bytes = encode_png(size, rgb);
         TemporaryFile temporary(path);
         errno = 0;
         std::ofstream out(temporary.path(), std::ios::binary);
@@ -84,8 +89,25 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
     }
 }
 
+} // namespace
+
+void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb) {
+    write_bytes(path, encode_png(size, rgb));
+}
+
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
     write_png(path, {image.width(), image.height()}, srgb_bytes(image, exposure));
+}
+
+void write_png(const std::filesystem::path& path, const RgbImage& image, const Image<float>& alpha) {
+    std::vector<std::uint8_t> rgba;
+    rgba.reserve(4 * image.size());
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel)
+            rgba.push_back(srgb_byte(image.data()[i][channel]));
+        rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(alpha.data()[i], 0.0f, 1.0f))));
+    }
+    write_bytes(path, encode_png({image.width(), image.height()}, rgba, 4));
 }
 
 std::vector<char> encode_png(const RgbImage& image, float exposure) {

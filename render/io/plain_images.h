@@ -22,6 +22,9 @@ void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<con
 /// Writes the image times 2^exposure as sRGB, in the same way.
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure = 0);
 
+/// Writes the image as sRGB with an alpha channel, in [0, 1], by which colours are not multiplied.
+void write_png(const std::filesystem::path& path, const RgbImage& image, const Image<float>& alpha);
+
 /// Returns the bytes that write_png() would write. Throws std::runtime_error.
 std::vector<char> encode_png(const RgbImage& image, float exposure = 0);
 

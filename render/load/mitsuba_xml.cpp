@@ -57,12 +57,12 @@ constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> scene_elements[] = {
     {"alias", read_nothing},                                   // collect_ids() has stored it
     {"texture", read_nothing},                                 // read by the plugin that refers to it
     {"path", read_nothing},                                    // expand_scene() has added the folder
+    {"sensor", read_sensor},
 };
 
 // Children of <scene> of which only the first is used.
 constexpr Plugin<void (*)(LoadContext&, const XmlElement&)> single_elements[] = {
     {"integrator", read_integrator},
-    {"sensor", read_sensor},
 };
 
 void read_scene(LoadContext& context, const XmlElement& root) {
@@ -80,7 +80,7 @@ void read_scene(LoadContext& context, const XmlElement& root) {
             context.notes.push_back({element.position(), "<" + tag + "> is not known and not used"});
         }
     }
-    if (!read.contains("sensor"))
+    if (context.scene.sensors.empty())
         context.notes.push_back(
             {root.position(), "the scene has no sensor: a camera at the origin looks along +z"});
 }

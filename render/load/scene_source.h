@@ -1,9 +1,12 @@
 #pragma once
 
+#include "render/scene/camera.h"
+
 #include <atomic>
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace tessera {
@@ -17,6 +20,10 @@ struct SceneSource {
     SceneVariables variables;          ///< -D name=value
     std::filesystem::path camera = {}; ///< file whose camera replaces the scene's; empty: none
     bool strict = false;               ///< whether a missing or damaged mesh, texture or transform ends loading
+    std::string sensor = {};           ///< number, from 0, or id of the sensor; empty: the first
+    /// Replaces the sensor's crop window; its film of size 0 stands for the sensor's film. Without a window: the
+    /// whole film is rendered. Empty: the sensor's crop window is used.
+    std::optional<CropWindow> crop = {};
 };
 
 /// Returns the path of a scene's file, or words for the built-in scene.

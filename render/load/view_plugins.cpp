@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/core.h>
 #include <glm/mat3x3.hpp>
@@ -74,20 +75,70 @@ int film_side(Properties& p, std::string_view name, int fallback) {
     return side;
 }
 
-void note_filter(LoadContext& context, const XmlElement& element) {
+PixelFilter read_filter(LoadContext& context, const XmlElement& element) {
     Properties p(element, context.notes);
-    if (p.type() != "box")
-        p.note("the reconstruction filter '" + p.type() + "' is not used: a box filter is used instead");
+    const std::optional<FilterKind> kind = filter_kind_from_name(p.type());
+    if (!kind) {
+        p.note("the reconstruction filter '" + p.type() + "' is not known: box is used instead");
+        return {};
+    }
+    PixelFilter filter = default_filter(*kind);
+    switch (*kind) {
+    case FilterKind::box: // 0.6 has a radius
+    case FilterKind::tent:
+        filter.radius = p.number("radius", filter.radius);
+        break;
+    case FilterKind::gaussian:
+        filter = gaussian_filter(p.number("stddev", filter.first));
+        break;
+    case FilterKind::mitchell:
+        filter.first = p.number("b", filter.first);
+        filter.second = p.number("c", filter.second);
+        break;
+    case FilterKind::lanczos:
+        filter.radius = static_cast<float>(p.integer("lobes", static_cast<int>(filter.radius)));
+        break;
+    case FilterKind::catmullrom:
+    case FilterKind::scene:
+        break;
+    }
+    if (!filter.is_valid())
+        element.fail("the parameters of the reconstruction filter '" + p.type() + "' are out of range");
+    p.report_unused();
+    return filter;
 }
 
-void read_film(LoadContext& context, const XmlElement& element) {
+/// Reads the crop window; empty if it is the whole film.
+CropWindow read_crop(Properties& p, glm::ivec2 film) {
+    const CropWindow crop{film,
+                          {p.integer("crop_offset_x", 0), p.integer("crop_offset_y", 0)},
+                          {p.integer("crop_width", film.x), p.integer("crop_height", film.y)}};
+    if (!crop.is_valid())
+        p.element().fail(fmt::format("the crop window, {}x{} pixels at ({}, {}), does not lie within the film of "
+                                     "{}x{} pixels",
+                                     crop.size.x, crop.size.y, crop.offset.x, crop.offset.y, film.x, film.y));
+    return crop.size == film ? CropWindow{} : crop;
+}
+
+PixelFormat read_pixel_format(Properties& p) {
+    const std::string name = p.text("pixel_format", "rgb");
+    if (const std::optional<PixelFormat> format = pixel_format_from_name(name))
+        return *format;
+    p.note(*p.take("pixel_format"), "the pixel format '" + name + "' is not known: rgb is used instead");
+    return PixelFormat::rgb;
+}
+
+void read_film(LoadContext& context, const XmlElement& element, Sensor& sensor) {
     Properties p(element, context.notes);
-    context.scene.size = {film_side(p, "width", 768), film_side(p, "height", 576)};
+    const glm::ivec2 film{film_side(p, "width", 768), film_side(p, "height", 576)};
+    sensor.camera.crop = read_crop(p, film);
+    sensor.size = sensor.camera.crop.size_on(film);
+    sensor.format = read_pixel_format(p);
     if (const std::optional<XmlElement> filter = context.take_one_nested(p, "rfilter"))
-        note_filter(context, *filter);
+        sensor.camera.filter = read_filter(context, *filter);
     // Parameters of Mitsuba's output file.
-    p.ignore({"file_format", "pixel_format", "component_format", "banner", "gamma", "exposure", "tonemap_method",
-              "attach_log", "high_quality_edges", "compensate"});
+    p.ignore({"file_format", "component_format", "banner", "gamma", "exposure", "tonemap_method", "attach_log",
+              "high_quality_edges", "compensate", "sample_border"});
     p.report_unused();
 }
 
@@ -131,6 +182,7 @@ void read_integrator(LoadContext& context, const XmlElement& element) {
                fmt::format("max_depth {} is reduced to {}, the largest number of edges of a path", depth,
                            most_edges));
     context.scene.max_depth = depth == -1 ? unlimited_depth : depth;
+    context.scene.hides_emitters = p.boolean("hide_emitters", context.scene.hides_emitters);
     if (p.type() == "path") {
         p.ignore({"rr_depth", "strict_normals"});
         p.report_unused();
@@ -149,7 +201,10 @@ void read_sensor(LoadContext& context, const XmlElement& element) {
     const SensorKind kind = known == std::end(sensors) ? sensors[0] : *known;
     if (known == std::end(sensors))
         p.note("the sensor '" + p.type() + "' is replaced by 'perspective'");
-    Camera& camera = context.scene.camera;
+    Sensor sensor;
+    sensor.id = element.attribute("id");
+    sensor.camera.filter = default_filter(FilterKind::gaussian); // Mitsuba's default
+    Camera& camera = sensor.camera;
     read_placement(p, camera);
     camera.is_orthographic = kind.is_orthographic;
     if (!kind.is_orthographic)
@@ -162,11 +217,14 @@ void read_sensor(LoadContext& context, const XmlElement& element) {
         camera.principal_offset = {p.number("principal_point_offset_x", 0),
                                    p.number("principal_point_offset_y", 0)};
     if (const std::optional<XmlElement> film = context.take_one_nested(p, "film"))
-        read_film(context, *film);
+        read_film(context, *film, sensor);
     context.take_nested(p, "sampler"); // the sample count is a setting of Tessera
     if (p.number("near_clip", 0.01f) > 0.1f || p.number("far_clip", 1e4f) < 1000)
         p.note("'near_clip' and 'far_clip' are not used: the camera sees everything in front of it");
     p.report_unused();
+    if (context.scene.sensors.empty())
+        context.scene.use(sensor);
+    context.scene.sensors.push_back(std::move(sensor));
 }
 
 } // namespace tessera

@@ -223,8 +223,9 @@ bool begin_path(const Tracer& tracer, const Ray& camera_ray, PixelWidth pixel_wi
                 BasePath& path) {
     path.reset(random);
     BaseVertex& primary = path.spare();
-    if (!tracer.closest(camera_ray, primary.vertex, RayKind::camera, tracer.first_lookup())) {
-        path.very_direct = tracer.environment_toward(camera_ray.direction).radiance;
+    const Ray ray = tracer.visible_part(camera_ray);
+    if (!tracer.closest(ray, primary.vertex, RayKind::camera, tracer.first_lookup())) {
+        path.very_direct = tracer.visible_environment(camera_ray.direction);
         return false;
     }
     path.keep();

@@ -48,7 +48,7 @@ struct BaseVertex {
 /// A path from the camera and the light that it found. It carries two light paths for each vertex: one ends by
 /// emitter sampling, the other by hitting an emitter.
 struct BasePath {
-    Rgb very_direct{0}; ///< directly visible emission, straight or in mirrors
+    Rgb very_direct{0}; ///< directly visible emission, straight or in mirrors; includes `weight`
     Rgb direct{0};      ///< sum over the light paths of two edges, theory (4)
     Rgb indirect{0};    ///< sum over all longer light paths
     Rgb albedo{1};      ///< approximate, of x_1 or of the surface in mirrors; 1 if the path is empty
@@ -56,10 +56,17 @@ struct BasePath {
     float pixel_width = 0; ///< at x_1, across the view, scene units
     float pixel_angle = 0; ///< growth of that with distance, radians (PixelWidth)
     int mirrors = 0;       ///< number of mirrors that the path begins with
+    float weight = 1;      ///< of the reconstruction filter at its camera ray (FilterSampler::Point)
     float own_width = 0;   ///< pixel width at the last vertex, scene units, or no_width (Tracer::width_beyond)
 
-    /// Returns an unbiased estimate of the pixel's radiance without directly visible emission.
+    /// Returns the radiance along the camera ray without directly visible emission. Times `weight`, it is an
+    /// unbiased estimate for the pixel.
     Rgb radiance() const { return direct + indirect; }
+    /// Sets the weight of a traced path, which has the weight 1.
+    void set_weight(float new_weight) {
+        weight = new_weight;
+        very_direct *= new_weight;
+    }
 
     /// Number of vertices; 0: the camera ray leaves the scene. Vertex 0 is x_1.
     int size() const { return size_; }

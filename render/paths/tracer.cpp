@@ -144,7 +144,22 @@ std::optional<BsdfSample> Vertex::sample_guided(glm::vec3 to_viewer, float lobe,
                                           transmits ? Scatter::transmit : Scatter::reflect);
 }
 
+Ray Tracer::beyond_emitters(Ray ray) const {
+    constexpr int most = 64; // emitters, not tuned
+    Hit hit;
+    Vertex emitter;
+    for (int i = 0; i < most && scene.intersector().closest(ray, hit); ++i) {
+        if (scene.record(hit.shape).emitter_pdf_a <= 0)
+            break;
+        ++counters.rays[static_cast<std::size_t>(RayKind::camera)];
+        make_vertex(scene, hit, ray, emitter);
+        ray = leave(emitter, ray.direction);
+    }
+    return ray;
+}
+
 Rgb Tracer::very_direct_along(Ray ray) const {
+    ray = visible_part(ray);
     Rgb sum(0), throughput(1);
     Vertex x;
     RayKind kind = RayKind::camera;
@@ -156,7 +171,8 @@ Rgb Tracer::very_direct_along(Ray ray) const {
         if (met == Met::darkness)
             break;
         if (met == Met::infinity)
-            return sum + throughput * environment_toward(ray.direction).radiance;
+            return sum + throughput * (edges == 1 ? visible_environment(ray.direction)
+                                                  : environment_toward(ray.direction).radiance);
         sum += throughput * x.light_toward(-ray.direction).radiance;
         const DeltaValue mirrored = may_go_on && x.bsdf.is_mirror()
                                         ? x.bsdf.evaluate_delta(x.to_previous, Scatter::reflect)
@@ -232,7 +248,9 @@ FeatureSample feature_sample_along(const Tracer& tracer, Ray ray, const Random& 
     constexpr int most_bounces = 8; // through glass; paths in mirrors follow base paths to max_depth
     FeatureSample sample{Rgb(0), {Rgb(1)}};
     SurfaceFeatures& features = sample.features;
-    float length = 0;
+    const glm::vec3 camera = ray.origin;
+    ray = tracer.visible_part(ray);
+    float length = glm::distance(camera, ray.origin);
     Vertex x;
     bool is_seen_in_mirrors = true; // and through no glass
     Tracer::TextureLookup seen = tracer.first_lookup();

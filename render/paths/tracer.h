@@ -111,6 +111,16 @@ struct Tracer {
         return is_its_own ? width + view.angle() * distance : no_width;
     }
 
+    /// Returns the part of a camera ray from which everything is visible. If the scene hides emitters, that is the
+    /// part beyond the emitters in front of the first other surface, as in Mitsuba 3.
+    Ray visible_part(const Ray& camera_ray) const {
+        return scene.hides_emitters() && scene.lights().has_surfaces() ? beyond_emitters(camera_ray) : camera_ray;
+    }
+    /// Returns the environment that a camera sees in a unit direction (world); black: none, or it is hidden.
+    Rgb visible_environment(glm::vec3 direction) const {
+        return scene.hides_emitters() ? Rgb(0) : environment_toward(direction).radiance;
+    }
+
     /// Sets `vertex` to the first hit of a ray. Returns false if the ray leaves the scene.
     bool closest(const Ray& ray, Vertex& vertex, RayKind kind, TextureLookup lookup) const {
         ++counters.rays[static_cast<std::size_t>(kind)];
@@ -162,6 +172,8 @@ struct Tracer {
 
     /// Returns the directly visible emission along a camera ray: at its first hit, and in mirrors.
     Rgb very_direct_along(Ray ray) const;
+
+    Ray beyond_emitters(Ray ray) const;
 
     /// Returns whether all rays from one point into a mirror see the same surface. Opacity masks, which some rays
     /// pass, prevent that.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <glm/geometric.hpp>
+
 namespace tessera {
 
 namespace {
@@ -73,7 +75,7 @@ FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 
         if (stop.stop_requested())
             return {};
         for (int x = 0; x < size.x; ++x) {
-            const Ray ray = projection.ray(glm::vec2(x, y) + 0.5f);
+            const Ray from_camera = projection.ray(glm::vec2(x, y) + 0.5f), ray = tracer.visible_part(from_camera);
             Hit hit;
             if (!scene.intersector().closest(ray, hit))
                 continue;
@@ -81,7 +83,7 @@ FirstHits trace_first_hits(const Scene& scene, const Camera& camera, glm::ivec2 
             make_vertex(scene, hit, ray, vertex);
             hits.albedo(x, y) = albedo_of(vertex);
             hits.normal(x, y) = vertex.frame.to_world({0, 0, 1});
-            hits.depth(x, y) = hit.distance;
+            hits.depth(x, y) = glm::distance(from_camera.origin, ray.origin) + hit.distance;
             if (with_footprints)
                 write_footprints(tracer, projection, x, y, hits);
         }

@@ -20,6 +20,8 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
                         {"scene", to_string(scene)},
                         {"variables", scene.variables},
                         {"camera", scene.camera.string()},
+                        {"sensor", scene.sensor},
+                        {"crop", scene.crop ? text_of(*scene.crop) : ""},
                         {"width", size.x},
                         {"height", size.y},
                         {"spp", spp},
@@ -34,7 +36,7 @@ nlohmann::json settings_json(const SceneSource& scene, RenderSettings s, glm::iv
 
 std::string picture_identity(const PictureSubject& subject, const RenderSettings& settings, glm::ivec2 size) {
     nlohmann::json identity = settings_json(subject.source, settings, size, 0, {});
-    for (const char* ignored : {"spp", "alpha", "variables"})
+    for (const char* ignored : {"spp", "alpha", "variables", "sensor", "crop"})
         identity.erase(ignored);
     identity["camera"] = parse_json(camera_json(subject.camera));
     identity["scene"] = to_string(checksums_of(subject.scene->description(), subject.camera));

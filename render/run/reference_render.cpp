@@ -61,8 +61,9 @@ ReconstructionSettings reconstruction_of(const ReferenceRecipe& recipe) {
 }
 
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
-                                     glm::ivec2 size, int depth) {
-    return folder / fmt::format("{}-{}x{}-d{}.exr", scene_name, size.x, size.y, depth);
+                                     glm::ivec2 size, int depth, FilterKind filter) {
+    const std::string end = filter == FilterKind::box ? "" : fmt::format("-{}", to_string(filter));
+    return folder / fmt::format("{}-{}x{}-d{}{}.exr", scene_name, size.x, size.y, depth, end);
 }
 
 std::filesystem::path reference_checkpoint(const std::filesystem::path& output) {

@@ -58,9 +58,10 @@ PassRange passes_of(const ReferenceRecipe& recipe);
 ReferenceImage reference_of(std::array<Render, 2>& halves, const ReferenceRecipe& recipe,
                             const SceneSource& source, const SceneChecksums& scene);
 
-/// Returns the path of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr.
+/// Returns the path of a scene's reference: FOLDER/SCENE-WxH-dDEPTH.exr, with "-FILTER" at the end of the
+/// name unless the filter is the box.
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& scene_name,
-                                     glm::ivec2 size, int depth);
+                                     glm::ivec2 size, int depth, FilterKind filter);
 
 /// Returns the path of a reference's checkpoint, beside its output.
 std::filesystem::path reference_checkpoint(const std::filesystem::path& output);

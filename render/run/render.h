@@ -49,10 +49,12 @@ public:
     glm::ivec2 size() const { return size_; }
     /// Returns means over the passes so far.
     GradientImages images() const { return with_patch(film_.means(spp_)); }
-    /// Returns images() and frees all sums, including those of reuse_maps(). No pass may follow. Times and
-    /// counters remain.
+    /// Returns images() and frees all sums, including those of reuse_maps() and coverage(). No pass may follow.
+    /// Times and counters remain.
     GradientImages take_images() { return with_patch(film_.take_means(spp_)); }
     ReuseMaps reuse_maps() const;
+    /// Returns alpha: the fraction of each pixel that sees anything, in [0, 1].
+    Image<float> coverage() const { return film_.coverage(spp_); }
     /// Returns the state that the newest pass used.
     std::shared_ptr<const LearnedReuse> newest_learned() const { return newest_learned_; }
     /// Adds the passes of another render of the same scene, view, size and settings. The two renders must have no

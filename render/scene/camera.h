@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/sampling/pixel_filter.h"
 #include "render/trace/rays.h"
 
 #include <array>
@@ -23,6 +24,26 @@ std::string_view to_string(FovAxis axis);
 /// Returns the axis with this name; empty if there is none.
 std::optional<FovAxis> fov_axis_from_name(std::string_view name);
 
+/// The part of a film that is rendered, as Mitsuba's crop window. Pixels.
+struct CropWindow {
+    glm::ivec2 film{0};   ///< size of the whole film
+    glm::ivec2 offset{0}; ///< of the window's top left corner in the film
+    glm::ivec2 size{0};   ///< of the window; 0: the whole film is rendered, whatever its size
+
+    bool empty() const { return size.x <= 0; }
+    /// Returns whether the window lies within its film.
+    bool is_valid() const {
+        return offset.x >= 0 && offset.y >= 0 && size.x >= 1 && size.y >= 1 && offset.x + size.x <= film.x &&
+               offset.y + size.y <= film.y;
+    }
+    /// Returns the size of the window on a film of another size, at least one pixel.
+    glm::ivec2 size_on(glm::ivec2 other_film) const;
+    bool operator==(const CropWindow&) const = default;
+};
+
+/// Returns the window as on the command line, without its film: "30,10,40x36"; "none" if it is empty.
+std::string text_of(const CropWindow& crop);
+
 /// A camera with Mitsuba's conventions: it looks along +z of `to_world`, +y is up and +x points left. Lengths are
 /// in camera space, so a scale in `to_world` scales them.
 struct Camera {
@@ -33,6 +54,8 @@ struct Camera {
     glm::vec2 principal_offset{0}; ///< shift of the image window right and down, fractions of its size
     float aperture_radius = 0;     ///< lens radius; 0: pinhole
     float focus_distance = 1;      ///< distance of the plane in focus, > 0
+    CropWindow crop{};             ///< the field of view and the principal offset are those of the whole film
+    PixelFilter filter{};          ///< the sensor's own, which FilterKind::scene selects
 
     /// Returns the ray through an image point (pixels from the top left corner) and a lens point (in lens radii).
     Ray ray(glm::vec2 pixel, glm::ivec2 size, glm::vec2 lens = glm::vec2(0)) const;
@@ -54,17 +77,19 @@ struct PixelWidth {
 /// lens point acts as a tilted pinhole that maps the plane in focus to the same image points.
 class Projection {
 public:
+    /// @param size  of the picture, pixels. If it is not that of the crop window, film and window are scaled.
     Projection(const Camera& camera, glm::ivec2 size);
 
     /// Returns the ray through an image point (pixels from the top left corner) and a lens point (in lens radii;
     /// (0, 0) is the centre). The direction is unit.
     Ray ray(glm::vec2 pixel, glm::vec2 lens = glm::vec2(0)) const {
+        pixel += offset_;
         return {origin_.at(pixel, lens), glm::normalize(direction_.at(pixel, lens))};
     }
 
     /// Returns the derivatives of ray() by the image point's x and y, per pixel.
     std::array<Ray, 2> ray_derivatives(glm::vec2 pixel, glm::vec2 lens) const {
-        const glm::vec3 d = direction_.at(pixel, lens);
+        const glm::vec3 d = direction_.at(pixel + offset_, lens);
         const float length = glm::length(d);
         const glm::vec3 unit = d / length;
         const auto across = [&](glm::vec3 by) { return (by - glm::dot(by, unit) * unit) / length; };
@@ -72,6 +97,8 @@ public:
     }
 
     PixelWidth pixel_width() const { return pixel_width_; }
+    /// Returns the pixel of the whole film at the picture's top left corner; (0, 0) without a crop window.
+    glm::ivec2 film_offset() const { return glm::ivec2(offset_ + 0.5f); }
 
     /// Projects a point as seen through a lens point. Returns (x w, y w, depth, w): x and y in pixels from the
     /// top left corner, the depth in camera units. w is the depth in a perspective, else 1. Linear in the point.
@@ -79,7 +106,7 @@ public:
 
 private:
     struct Linear {
-        glm::vec3 corner{0};            // value at the image's top left corner and the lens centre
+        glm::vec3 corner{0};            // value at the film's top left corner and the lens centre
         glm::vec3 right{0}, down{0};    // change per pixel in x and in y
         glm::vec3 lens_x{0}, lens_y{0}; // change per lens radius in x and in y
 
@@ -89,6 +116,7 @@ private:
     };
 
     Linear origin_, direction_;
+    glm::vec2 offset_{0}; // of the picture in the film, pixels
     PixelWidth pixel_width_;
     bool is_orthographic_;
 };
@@ -96,7 +124,8 @@ private:
 // Camera files are JSON with "to_world" (16 numbers, row by row as in Mitsuba's <matrix>). A perspective has
 // "fov" (degrees) and "fov_axis" ("x" by default); otherwise "orthographic" is true. "principal_point_offset" (2
 // numbers), "aperture_radius" and "focus_distance" are optional. "origin", "target" and "up" are written for
-// human readers and ignored on reading.
+// human readers and ignored on reading. "crop" has six numbers: size of the film, offset and size of the window.
+// "filter" has the reconstruction filter's name and its parameters.
 
 /// Reads a camera file. Throws LoadError with file, line and column if a field is malformed, missing or unknown.
 Camera read_camera(const std::filesystem::path& file);

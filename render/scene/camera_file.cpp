@@ -28,6 +28,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+constexpr int most_edge = 1 << 20; // pixels, of a film in a camera file; not tuned
+
 constexpr std::array known_fields = {"to_world",
                                      "fov",
                                      "fov_axis",
@@ -35,6 +37,8 @@ constexpr std::array known_fields = {"to_world",
                                      "principal_point_offset",
                                      "aperture_radius",
                                      "focus_distance",
+                                     "crop",
+                                     "filter",
                                      "origin",
                                      "target",
                                      "up"};
@@ -124,6 +128,38 @@ void read_lens(const JsonText& text, const json& object, Camera& camera) {
         fail(text, "focus_distance", "'focus_distance' must be above 0");
 }
 
+CropWindow read_crop(const JsonText& text, const json& object) {
+    const auto found = object.find("crop");
+    if (found == object.end())
+        return {};
+    if (!found->is_array() || found->size() != 6)
+        fail(text, "crop", "'crop' must be 6 numbers: size of the film, offset and size of the window");
+    std::array<int, 6> n{};
+    for (std::size_t i = 0; i < n.size(); ++i)
+        if (n[i] = static_cast<int>(number(text, "crop", (*found)[i])); std::abs(n[i]) > most_edge)
+            fail(text, "crop", fmt::format("'crop' has a number above {}", most_edge));
+    const CropWindow crop{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
+    if (!crop.is_valid())
+        fail(text, "crop", "the crop window does not lie within its film");
+    return crop;
+}
+
+PixelFilter read_filter(const JsonText& text, const json& object) {
+    const auto found = object.find("filter");
+    if (found == object.end())
+        return {};
+    const auto kind = found->is_array() && found->size() == 4 && (*found)[0].is_string()
+                          ? filter_kind_from_name((*found)[0].get<std::string>())
+                          : std::nullopt;
+    if (!kind)
+        fail(text, "filter", "'filter' must be a filter's name, its radius and two parameters");
+    const PixelFilter filter{*kind, number(text, "filter", (*found)[1]), number(text, "filter", (*found)[2]),
+                             number(text, "filter", (*found)[3])};
+    if (!filter.is_valid())
+        fail(text, "filter", "the filter's parameters are invalid");
+    return filter;
+}
+
 /// Formats a float so that it is read back exactly: nine digits suffice, and the decimal point keeps the sign of
 /// -0.
 std::string exact(float x) {
@@ -167,6 +203,8 @@ Camera parse_camera(const std::string& json_text, const std::string& name) {
         read_field_of_view(text, object, camera);
     camera.principal_offset = read_principal_offset(text, object);
     read_lens(text, object, camera);
+    camera.crop = read_crop(text, object);
+    camera.filter = read_filter(text, object);
     return camera;
 }
 
@@ -191,6 +229,12 @@ std::string camera_json(const Camera& camera) {
     if (camera.aperture_radius > 0)
         kind += fmt::format("  \"aperture_radius\": {},\n  \"focus_distance\": {},\n",
                             exact(camera.aperture_radius), exact(camera.focus_distance));
+    if (const CropWindow& c = camera.crop; !c.empty())
+        kind += fmt::format("  \"crop\": [{}, {}, {}, {}, {}, {}],\n", c.film.x, c.film.y, c.offset.x, c.offset.y,
+                            c.size.x, c.size.y);
+    if (const PixelFilter& f = camera.filter; f != PixelFilter())
+        kind += fmt::format("  \"filter\": [\"{}\", {}, {}, {}],\n", to_string(f.kind), exact(f.radius),
+                            exact(f.first), exact(f.second));
     return fmt::format("{{\n  \"to_world\": [{}\n  ],\n{}  \"origin\": {},\n  \"target\": {},\n  \"up\": {}\n}}\n",
                        matrix, kind, triple(origin), triple(origin + forward), triple(up));
 }

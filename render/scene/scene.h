@@ -2,11 +2,13 @@
 
 #include "render/scene/camera.h"
 #include "render/scene/light.h"
+#include "render/scene/sensor.h"
 #include "render/surface/material.h"
 #include "render/surface/mesh.h"
 #include "render/trace/intersector.h"
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -24,8 +26,18 @@ struct SceneDescription {
     std::vector<DirectionalLight> directional_lights;
     EnvironmentDescription environment;
     Camera camera;
-    glm::ivec2 size{768, 576}; ///< film size, pixels
+    glm::ivec2 size{768, 576}; ///< of the picture: the crop window, or the film; pixels
     int max_depth = 65; ///< maximum edges of a light path, as in Mitsuba; 1: emission only; a file's -1 is 65
+    PixelFormat format = PixelFormat::rgb;
+    bool hides_emitters = false;   ///< camera rays pass through emitters, and see no environment
+    std::vector<Sensor> sensors{}; ///< of the file, in its order; camera, size and format are those of one of them
+
+    /// Makes camera, size and format those of a sensor.
+    void use(const Sensor& sensor) {
+        camera = sensor.camera;
+        size = sensor.size;
+        format = sensor.format;
+    }
 };
 
 /// Calls visit(shape) for all shapes in the order of Hit::shape: the scene's own, then those of the groups.
@@ -65,7 +77,11 @@ public:
     const SceneDescription& description() const { return description_; }
     const Camera& camera() const { return description_.camera; }
     glm::ivec2 size() const { return description_.size; }
+    /// Returns the size of the picture on a film of another size; empty: on the scene's own film.
+    glm::ivec2 size(std::optional<glm::ivec2> film) const { return film ? camera().crop.size_on(*film) : size(); }
     int max_depth() const { return description_.max_depth; }
+    /// Returns whether the camera sees no emitters, but only the light that they cast.
+    bool hides_emitters() const { return description_.hides_emitters; }
     const LightTable& lights() const { return lights_; }
     const Intersector& intersector() const { return intersector_; }
     /// Returns the record of a shape by Hit::shape.

@@ -282,8 +282,8 @@ void SceneDigest::take(const EnvironmentDescription& environment) {
 }
 
 void SceneDigest::take(const Camera& camera) {
-    const auto& [to_world, fov, fov_axis, is_orthographic, principal_offset, aperture_radius, focus_distance] =
-        camera;
+    const auto& [to_world, fov, fov_axis, is_orthographic, principal_offset, aperture_radius, focus_distance, crop,
+                 filter] = camera; // the filter is a setting of a picture
     add(to_world, fov, fov_axis);
     // Default values are left out, as in add_if().
     if (is_orthographic)
@@ -292,13 +292,15 @@ void SceneDigest::take(const Camera& camera) {
         add(principal_offset);
     if (aperture_radius > 0)
         add(aperture_radius, focus_distance);
+    if (!crop.empty())
+        add(crop.film, crop.offset, crop.size);
 }
 
 } // namespace
 
 SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera) {
     const auto& [shapes, groups, instances, materials, area_lights, point_lights, directional_lights, environment,
-                 own_camera, size, max_depth] = scene;
+                 own_camera, size, max_depth, format, hides_emitters, sensors] = scene;
     BitmapChecksums bitmaps;
     std::vector<std::uint32_t> material_checksums;
     for (const Material& material : materials)
@@ -318,6 +320,8 @@ SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera)
     for (const auto& [group, to_world] : instances)
         geometry.add(group, to_world);
     lights.add(point_lights, directional_lights, environment);
+    if (hides_emitters)
+        lights.add(hides_emitters);
     return {geometry.checksum(), surfaces.checksum(), lights.checksum(),
             SceneDigest(bitmaps).add(camera).checksum()};
 }

@@ -92,6 +92,17 @@ enum class Basis : std::uint8_t {
     box     ///< nine boxes of equal solid angle
 };
 
+/// Reconstruction filter: the weight of a point in the value of a pixel (render/sampling/pixel_filter.h).
+enum class FilterKind : std::uint8_t {
+    box,
+    tent,
+    gaussian,
+    mitchell,
+    catmullrom,
+    lanczos,
+    scene ///< the filter of the scene's sensor
+};
+
 /// All settings that determine a picture's bits, besides scene, camera and size. Names and limits are in
 /// settings_table.h.
 struct RenderSettings : PathSettings, ShiftSettings {
@@ -103,6 +114,7 @@ struct RenderSettings : PathSettings, ShiftSettings {
     float rr_delta = 0.1f; ///< threshold of the absolute roulette, a radiance
     bool edge_rays = true; ///< several camera rays per sample at edges (edge_positions, edge_emitter_rays)
     Basis basis = Basis::albedo;
+    FilterKind filter = FilterKind::box;
     std::uint64_t seed = 0;
 
     bool operator==(const RenderSettings&) const = default;

@@ -82,6 +82,15 @@ constexpr SettingChoice bases[] = {
      "As sh1, with nine boxes that divide the sphere of directions into equal solid angles. Takes at least 1068 "
      "bytes more per pixel."},
 };
+constexpr SettingChoice filters[] = {
+    {"box", "box", "The mean over the pixel's square."},
+    {"tent", "tent", "Linear, 1 pixel from the centre to the end."},
+    {"gaussian", "Gaussian", "Standard deviation 0.5 pixels, Mitsuba's default."},
+    {"mitchell", "Mitchell-Netravali", "Cubic with B = C = 1/3. Sharpens slightly; its negative lobes add noise."},
+    {"catmullrom", "Catmull-Rom", "Cubic with B = 0, C = 1/2. Sharper, with larger negative lobes."},
+    {"lanczos", "Lanczos", "Three lobes."},
+    {"scene", "the scene's", "The filter of the scene's sensor."},
+};
 } // namespace
 
 std::string_view short_name(Method method) {
@@ -204,6 +213,9 @@ std::vector<Setting> settings_of(RenderSettings& s) {
          Setting::Real{&s.rr_delta, 0, 1e30f, 0, 10}, reuses && s.roulette == RouletteKind::absolute},
         {"basis", "Basis", "The quantity that is measured and reconstructed.", one_of(bases, s.basis),
          s.method != Method::pt},
+        {"filter", "Filter",
+         "Reconstruction filter of the picture. References are comparable only if they have the same filter.",
+         one_of(filters, s.filter)},
         {"shift", "Shift", "How a base path is shifted to another pixel.", one_of(shift_kinds, s.shift), shifts},
         {"shift_distance", "Distance",
          "Assumed distance between pixels that reuse paths, in pixel widths. The shift copies the half vector "

@@ -73,7 +73,7 @@ TEST_F(CommandLine, RenderHasFewOptionsAllInGroups) {
     int options = 0;
     for (std::string line; std::getline(lines, line);)
         options += line.starts_with("  -");
-    EXPECT_LE(options, 28); // including --help
+    EXPECT_LE(options, 32); // including --help
 }
 
 TEST_F(CommandLine, ASceneAloneOpensTheViewer) {

@@ -332,7 +332,6 @@ TEST(MitsubaXml, UsesOnlyTheFirstOfDuplicateElements) {
     EXPECT_TRUE(std::holds_alternative<CheckerboardTexture>(diffuse.reflectance.kind));
     EXPECT_EQ(all(loaded), "test.xml:2:1: only the first integrator is used\n"
                            "test.xml:4:1: only the first <film> in 'perspective' is used\n"
-                           "test.xml:5:1: only the first sensor is used\n"
                            "test.xml:7:1: only the first <texture> in 'scale' is used\n"
                            "test.xml:8:1: only the first <bsdf> in 'rectangle' is used\n");
 }

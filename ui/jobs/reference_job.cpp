@@ -100,6 +100,7 @@ void ReferenceJob::start(ViewerState& state, int threads, const std::function<vo
     ReferenceRecipe recipe;
     recipe.settings.method = making.method;
     recipe.settings.max_depth = state.active().settings.render.max_depth;
+    recipe.settings.filter = state.active().settings.render.filter;
     recipe.size = state.request_size();
     recipe.spp = making.spp;
     recipe.checkpoint_seconds = 30;

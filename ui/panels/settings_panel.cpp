@@ -1,4 +1,5 @@
 #include "recon/enumeration.h"
+#include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 #include "ui/gl/controls.h"
 #include "ui/gl/theme.h"
@@ -17,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
 #include <glm/vec2.hpp>
 #include <imgui.h>
 
@@ -106,7 +108,27 @@ std::vector<Setting> render_settings(ViewerState& state) {
     return settings;
 }
 
+/// Draws the list of the scene's sensors, if there are several.
+void draw_sensors(Controls& controls, ViewerState& state) {
+    if (!state.scene || state.scene->description().sensors.size() < 2)
+        return;
+    const std::vector<Sensor>& sensors = state.scene->description().sensors;
+    std::vector<ChoiceItem> items;
+    int chosen = static_cast<int>(state.scene_info.sensor.value_or(0));
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        const std::string number = std::to_string(i);
+        items.push_back({number, sensors[i].id.empty() ? number : number + ", " + sensors[i].id,
+                         fmt::format("A film of {} x {} pixels.", sensors[i].size.x, sensors[i].size.y)});
+        if (!state.scene_info.sensor && sensors[i].camera == state.scene->camera())
+            chosen = static_cast<int>(i);
+    }
+    if (controls.choice("sensor", "Sensor", items, chosen,
+                        "Sensor of the scene file from which the camera starts."))
+        state.show_sensor(static_cast<std::size_t>(chosen));
+}
+
 void draw_size_settings(Controls& controls, ViewerState& state) {
+    draw_sensors(controls, state);
     draw_setting(controls, size_base_setting(state.rendering.size.base));
     if (state.rendering.size.base == SizeChoice::Base::custom)
         draw_setting(controls, custom_size_setting(state.rendering.size.custom));

@@ -1,11 +1,27 @@
 #include "ui/state/document.h"
 
+#include "render/scene/scene.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
 
 namespace tessera {
+
+glm::ivec2 Document::sensor_size() const {
+    if (!scene)
+        return {16, 9};
+    const std::vector<Sensor>& sensors = scene->description().sensors;
+    const std::size_t chosen = scene_info.sensor.value_or(sensors.size());
+    return chosen < sensors.size() ? sensors[chosen].size : scene->size();
+}
+
+void Document::show_sensor(std::size_t index) {
+    scene_info.sensor = index;
+    camera.set_home(scene->description().sensors.at(index).camera, scene->center(), scene->radius());
+    set_view({});
+}
 
 namespace {
 

@@ -85,7 +85,9 @@ struct SceneProblem {
 /// Source of the scene, and progress of the next load.
 struct SceneInfo {
     std::string name;
-    SceneSource source;              ///< without a file for a built-in scene
+    SceneSource source; ///< without a file for a built-in scene
+    /// Index of the sensor that the user chose; empty: the one with which the scene was opened.
+    std::optional<std::size_t> sensor;
     int shown = 0;                   ///< number of scenes so far, reloads included
     std::string loading;             ///< step of the next scene's load; empty: none is loading
     SceneProblem problem;            ///< of the last load, while there is no scene
@@ -142,6 +144,11 @@ struct Document : PaneSet {
     bool reconstructs_long(const PaneState& pane) const {
         return pane.reconstructing && pane.reconstructing->seconds > rendering.patience;
     }
+
+    /// Returns the size of the sensor's picture, pixels; (16, 9) without a scene.
+    glm::ivec2 sensor_size() const;
+    /// Moves the camera to a sensor of the scene, which becomes the home view.
+    void show_sensor(std::size_t index);
 
     /// Returns the size that all panes render, pixels. It can differ from the size that fits best, see
     /// SessionLink.

@@ -12,6 +12,7 @@ UndoPoint point_of(const Document& document) {
         point.panes.push_back(pane.settings);
     point.linked = document.linked;
     point.size = document.rendering.size;
+    point.sensor = document.scene_info.sensor;
     point.camera = document.camera.camera();
     point.camera_distance = document.camera.distance();
     point.tone = document.display.tone;
@@ -25,6 +26,9 @@ void take(const UndoPoint& point, Document& document) {
         document.panes[i].settings = point.panes[i];
     document.linked = point.linked;
     document.rendering.size = point.size;
+    if (point.sensor != document.scene_info.sensor && point.sensor)
+        document.show_sensor(*point.sensor);
+    document.scene_info.sensor = point.sensor;
     document.camera.put(point.camera, point.camera_distance);
     document.display.tone = point.tone;
 }

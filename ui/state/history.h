@@ -13,6 +13,7 @@ struct UndoPoint {
     std::vector<PaneSettings> panes;
     bool linked = true;
     SizeChoice size;
+    std::optional<std::size_t> sensor; ///< SceneInfo::sensor
     Camera camera;
     float camera_distance = 1; ///< to the camera's target
     Tone tone;

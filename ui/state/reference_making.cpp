@@ -24,7 +24,7 @@ std::filesystem::path default_reference_file(const Document& document) {
     }
     std::error_code ignored; // a deleted current folder causes an error when the file is written
     return reference_file(std::filesystem::current_path(ignored), name, document.request_size(),
-                          document.active().settings.render.max_depth);
+                          document.active().settings.render.max_depth, document.active().settings.render.filter);
 }
 
 std::filesystem::path wanted_reference_file(const Document& document) {

@@ -35,7 +35,7 @@ std::optional<std::string> SaveWishes::take(SaveKind kind) {
 }
 
 glm::ivec2 ViewerState::fitting_size() const {
-    const glm::ivec2 film = scene ? scene->size() : glm::ivec2(16, 9);
+    const glm::ivec2 film = sensor_size();
     glm::ivec2 smallest = panes.empty() ? glm::ivec2(1) : active().canvas_size;
     for (int i = 0; i < static_cast<int>(panes.size()); ++i) {
         if (is_on_show(i))

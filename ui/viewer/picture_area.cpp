@@ -54,7 +54,7 @@ void PictureArea::draw(const ScreenRect& where, Controls& controls, ViewerState&
         cursor.reset();
     PaneTools tools{shader_, images_, controls, state};
     const int alone = state.layout.alone ? state.active_pane : -1;
-    const glm::vec2 picture(state.scene ? state.scene->size() : glm::ivec2(16, 9));
+    const glm::vec2 picture(state.sensor_size());
     const auto each = [&](auto&& act) {
         for (int i = 0; i < panes; ++i) {
             if (alone < 0 || alone == i)

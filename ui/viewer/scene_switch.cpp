@@ -72,6 +72,8 @@ void SceneSwitch::show(ViewerState& state, std::shared_ptr<const Scene> scene, c
     state.scene_info.source = origin.source;
     state.space = {};
     ++state.scene_info.shown;
+    if (!is_reload || state.scene_info.sensor >= state.scene->description().sensors.size())
+        state.scene_info.sensor = {};
     if (!is_reload || !(previous->camera() == state.scene->camera())) {
         state.camera.set_home(state.scene->camera(), state.scene->center(), state.scene->radius());
         state.set_view({});

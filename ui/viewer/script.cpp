@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
+#include <iostream>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -95,6 +96,8 @@ std::vector<ScriptStep> parse_script(std::istream& text, const std::string& file
 }
 
 std::vector<ScriptStep> read_script(const std::filesystem::path& file) {
+    if (file == "-")
+        return parse_script(std::cin, "standard input");
     std::ifstream text(file);
     if (!text)
         throw ScriptError(file.string(), 1, "the file cannot be read");

@@ -34,7 +34,7 @@ public:
 /// messages.
 std::vector<ScriptStep> parse_script(std::istream& text, const std::string& file);
 
-/// Reads and parses a script file. Throws ScriptError also if the file cannot be read.
+/// Reads and parses a script file; "-" is standard input. Throws ScriptError also if the file cannot be read.
 std::vector<ScriptStep> read_script(const std::filesystem::path& file);
 
 /// Returns one line of help for each step, for the command line's --help.
