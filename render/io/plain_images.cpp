@@ -17,8 +17,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/core.h>
-
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -47,7 +45,8 @@ std::vector<char> encode_png(glm::ivec2 size, std::span<const std::uint8_t> pixe
     check_image_size(size.x, size.y);
     if (pixels.size() !=
         static_cast<std::size_t>(channels) * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
-        throw std::runtime_error(fmt::format("the image does not have {} bytes a pixel", channels));
+        throw std::runtime_error(channels == 3 ? "the image does not have three bytes a pixel"
+                                               : "the image does not have four bytes a pixel");
     std::vector<char> bytes;
     if (!stbi_write_png_to_func(append, &bytes, size.x, size.y, channels, pixels.data(), channels * size.x))
         throw std::runtime_error("the image cannot be encoded");
@@ -74,8 +73,11 @@ std::uint8_t srgb_byte(float linear) {
 
 namespace {
 
-void write_bytes(const std::filesystem::path& path, const std::vector<char>& bytes) {
+/// Writes a PNG of 3 or 4 bytes a pixel.
+void write_pixels(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> pixels,
+                  int channels) {
     try {
+        const std::vector<char> bytes = encode_png(size, pixels, channels);
         TemporaryFile temporary(path);
         errno = 0;
         std::ofstream out(temporary.path(), std::ios::binary);
@@ -92,7 +94,7 @@ void write_bytes(const std::filesystem::path& path, const std::vector<char>& byt
 } // namespace
 
 void write_png(const std::filesystem::path& path, glm::ivec2 size, std::span<const std::uint8_t> rgb) {
-    write_bytes(path, encode_png(size, rgb));
+    write_pixels(path, size, rgb, 3);
 }
 
 void write_png(const std::filesystem::path& path, const RgbImage& image, float exposure) {
@@ -107,7 +109,7 @@ void write_png(const std::filesystem::path& path, const RgbImage& image, const I
             rgba.push_back(srgb_byte(image.data()[i][channel]));
         rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(alpha.data()[i], 0.0f, 1.0f))));
     }
-    write_bytes(path, encode_png({image.width(), image.height()}, rgba, 4));
+    write_pixels(path, {image.width(), image.height()}, rgba, 4);
 }
 
 std::vector<char> encode_png(const RgbImage& image, float exposure) {

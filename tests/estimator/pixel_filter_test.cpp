@@ -4,7 +4,6 @@
 #include "tests/support/scene_builder.h"
 #include "tests/support/z_scores.h"
 
-#include <glm/common.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {
@@ -127,7 +127,7 @@ Measured floored(Measured m) {
 
 /// Returns whether a z-test passes. Pixels that reuse paths share the sign of a filter's lobe, so their errors are
 /// correlated over the whole picture, and only the largest z counts.
-bool passes(const ZResult& z, FilterKind kind, Method method) {
+bool agrees(const ZResult& z, FilterKind kind, Method method) {
     const bool is_common = kind > FilterKind::gaussian && method != Method::pt;
     return is_common ? z.largest < z.limit : z.passes();
 }
@@ -148,13 +148,13 @@ void expect_convolution(FilterKind kind, Method method, Basis basis) {
     const Measured truth = exact(Wall::expected(default_filter(kind)));
     const MethodMeasured m = measure(Wall::scene(false), Wall::size, s, runs, passes, {});
     const ZResult primal = z_test(floored(m.primal), truth);
-    EXPECT_TRUE(passes(primal, kind, method)) << name << ": " << primal.to_string();
+    EXPECT_TRUE(agrees(primal, kind, method)) << name << ": " << primal.to_string();
     if (!has_gradients(method) || basis != Basis::none)
         return;
     for (const auto& [found, wanted] :
          {std::pair(m.dx, difference_x(truth)), std::pair(m.dy, difference_y(truth))}) {
         const ZResult gradient = z_test(floored(found), wanted);
-        EXPECT_TRUE(passes(gradient, kind, method)) << name << " gradient: " << gradient.to_string();
+        EXPECT_TRUE(agrees(gradient, kind, method)) << name << " gradient: " << gradient.to_string();
     }
 }
 
@@ -181,7 +181,7 @@ TEST(PixelFilter, DirectlyVisibleEmissionIsFiltered) {
         s.max_depth = 1;
         const MethodMeasured m = measure(Wall::scene(true), Wall::size, s, runs, passes, {});
         const ZResult z = z_test(floored(m.very_direct), exact(Wall::expected(default_filter(kind))));
-        EXPECT_TRUE(passes(z, kind, s.method)) << to_string(kind) << ": " << z.to_string();
+        EXPECT_TRUE(agrees(z, kind, s.method)) << to_string(kind) << ": " << z.to_string();
     }
 }
 

@@ -298,7 +298,7 @@ TEST(MitsubaXml, ReportsEverythingThatIsNotUsed) {
                                                  "  <medium type='homogeneous'/>\n"
                                                  "  <shape type='cube'><emitter type='laser'/></shape>\n"
                                                  "  <integrator type='path'>\n"
-                                                 "    <boolean name='hide_emitters' value='true'/></integrator>\n"
+                                                 "    <boolean name='block_size_y' value='true'/></integrator>\n"
                                                  "</scene>",
                                                  "n.xml");
     EXPECT_EQ(all(loaded), "n.xml:1:1: the scene has no sensor: a camera at the origin looks along +z\n"
@@ -308,7 +308,7 @@ TEST(MitsubaXml, ReportsEverythingThatIsNotUsed) {
                            "n.xml:5:3: the shape 'torus' is not known; the shape is left out\n"
                            "n.xml:6:3: <medium> is not known and not used\n"
                            "n.xml:7:22: the emitter 'laser' is not known; it gives no light\n"
-                           "n.xml:9:5: 'hide_emitters' of integrator 'path' is not used\n");
+                           "n.xml:9:5: 'block_size_y' of integrator 'path' is not used\n");
     const auto& magenta = std::get<DiffuseMaterial>(loaded.description.materials[0].kind);
     EXPECT_EQ(magenta.reflectance.evaluate({}), Rgb(1, 0, 1));
 }

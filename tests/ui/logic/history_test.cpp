@@ -1,5 +1,6 @@
 // Undo and redo, presets, and the search for commands.
 
+#include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 #include "ui/panels/found_actions.h"
 #include "ui/settings/presets.h"
@@ -7,8 +8,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
@@ -22,6 +25,39 @@ Document document_with(int panes) {
         document.panes.back().slot = static_cast<int>(document.panes.size()) - 1;
     }
     return document;
+}
+
+/// Returns a scene with two sensors, of 96 x 64 and 50 x 40 pixels.
+std::shared_ptr<const Scene> scene_with_two_sensors() {
+    SceneDescription description;
+    description.sensors = {{"", Camera{}, {96, 64}}, {"second", Camera{}, {50, 40}}};
+    description.sensors[1].camera.fov = 60;
+    description.sensors[1].camera.to_world[3].x = 3;
+    description.use(description.sensors[0]);
+    return std::make_shared<const Scene>(description);
+}
+
+TEST(Sensors, ASensorHasItsFilmAndIsTheHomeView) {
+    Document document = document_with(1);
+    EXPECT_EQ(document.sensor_size(), glm::ivec2(16, 9));
+    document.scene = scene_with_two_sensors();
+    document.camera.set_home(document.scene->camera(), {0, 0, 5}, 1);
+    EXPECT_EQ(document.sensor_size(), glm::ivec2(96, 64));
+    History history;
+    history.note(document, false);
+    document.show_sensor(1);
+    history.note(document, false);
+    EXPECT_EQ(document.sensor_size(), glm::ivec2(50, 40));
+    EXPECT_EQ(document.camera.camera().fov, 60);
+    document.camera.fly({0, 0, 1});
+    document.camera.go_home();
+    EXPECT_FLOAT_EQ(document.camera.position().x, 3);
+    history.undo(document);
+    EXPECT_EQ(document.sensor_size(), glm::ivec2(96, 64));
+    EXPECT_FLOAT_EQ(document.camera.position().x, 0);
+    history.redo(document);
+    EXPECT_EQ(document.sensor_size(), glm::ivec2(50, 40));
+    EXPECT_FLOAT_EQ(document.camera.position().x, 3);
 }
 
 TEST(History, UndoesAndRedoes) {

@@ -2,8 +2,10 @@
 #include "ui/state/actions.h"
 #include "ui/viewer/script.h"
 
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <glm/vec2.hpp>
@@ -34,6 +36,18 @@ TEST(Script, StepsQuotesAndComments) {
     EXPECT_EQ(steps[0].line, 3);
     EXPECT_EQ(steps[1].arguments, std::vector<std::string>{"menu View/Statistics"});
     EXPECT_EQ(steps[2].line, 5);
+}
+
+TEST(Script, AHyphenIsStandardInput) {
+    std::istringstream steps("quit\nunknown\n");
+    std::streambuf* const before = std::cin.rdbuf(steps.rdbuf());
+    try {
+        read_script("-");
+        ADD_FAILURE() << "an unknown step was read";
+    } catch (const ScriptError& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with("standard input:2: unknown step unknown"));
+    }
+    std::cin.rdbuf(before);
 }
 
 TEST(Script, ErrorsNameFileAndLine) {
