@@ -26,6 +26,8 @@ Material read_twosided(LoadContext& context, Properties& p) {
         p.note("'twosided' has no effect on a transparent material");
     else
         material.two_sided = true;
+    if (material.relief)
+        material.relief->is_mirrored_behind = true;
     return material;
 }
 
@@ -66,7 +68,7 @@ Texture nested_texture(LoadContext& context, Properties& p) {
 
 void set_relief(const LoadContext& context, Properties& p, Material& material, Relief relief) {
     relief.use_shadowing_function = p.boolean("use_shadowing_function", !context.old_syntax);
-    p.ignore({"flip_invalid_normals"}); // such directions are always black in Tessera
+    relief.turns_to_viewer = p.boolean("flip_invalid_normals", !context.old_syntax);
     if (material.relief)
         p.note("the bump or normal map inside this one is left out");
     material.relief = relief;

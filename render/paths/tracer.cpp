@@ -233,10 +233,13 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         if (position_derivatives(shape, hit, by_u, by_v)) {
             bent = bend(*shape.material->relief, at, normal, by_u, by_v);
             v.bsdf.terminator = terminator_of(*shape.material->relief, glm::dot(normal, bent));
+            v.bsdf.turns_relief = shape.material->relief->turns_to_viewer;
         }
     }
     const float shown = side_shown(shape, normal, ray.direction);
-    const Frame frame = shading_frame(shape, hit, v.geometric_normal, shown * bent);
+    const bool is_mirrored = shown < 0 && shape.material->relief && shape.material->relief->is_mirrored_behind;
+    const glm::vec3 facing = is_mirrored ? bent - 2 * glm::dot(bent, normal) * normal : shown * bent;
+    const Frame frame = shading_frame(shape, hit, v.geometric_normal, facing);
     if (v.bsdf.has_relief())
         v.bsdf.interpolated_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);

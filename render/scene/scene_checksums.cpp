@@ -238,8 +238,10 @@ void SceneDigest::take(const MediumLayerMaterial& material) {
 }
 
 void SceneDigest::take(const Relief& relief) {
-    const auto& [kind, map, scale, use_shadowing_function] = relief;
+    const auto& [kind, map, scale, use_shadowing_function, is_mirrored_behind, turns_to_viewer] = relief;
     add(kind, map, scale, use_shadowing_function);
+    add_if(is_mirrored_behind, is_mirrored_behind);
+    add_if(turns_to_viewer, turns_to_viewer);
 }
 
 void SceneDigest::take(const Material& material) {

@@ -132,6 +132,7 @@ std::shared_ptr<const Scene> relief() {
             waves.floats.emplace_back(0.02f * float((x * 3 + y * 5) % 4));
     Relief bump;
     bump.map.kind = BitmapTexture{std::make_shared<const Bitmap>(waves)};
+    bump.turns_to_viewer = true;
     Material wall{"wall", DiffuseMaterial{{white}}, true};
     wall.relief = bump;
     ConductorMaterial metal;
