@@ -81,18 +81,29 @@ double mesh_bytes(const Scene& scene) {
         bytes += static_cast<double>(
             s.mesh.positions.size() * sizeof(glm::vec3) + s.mesh.normals.size() * sizeof(glm::vec3) +
             s.mesh.uvs.size() * sizeof(glm::vec2) + s.mesh.triangles.size() * sizeof(glm::uvec3));
+        bytes += s.quadric ? sizeof(Quadric) : 0;
         for (const MeshAttribute& attribute : s.mesh.attributes)
             bytes += static_cast<double>(attribute.values.size() * sizeof(glm::vec3));
     });
     return bytes;
 }
 
+/// Counts surfaces: "14 triangles", "1 quadric" or "14 triangles and 1 quadric".
+std::string count_of(std::size_t triangles, std::size_t quadrics) {
+    const std::string round = fmt::format("{} quadric{}", quadrics, quadrics == 1 ? "" : "s");
+    if (triangles == 0 && quadrics > 0)
+        return round;
+    return fmt::format("{} triangles{}", triangles, quadrics > 0 ? " and " + round : "");
+}
+
 /// Describes the lights: "2 area (of 14 triangles), 1 spot, environment map of 512x256, sun".
 std::string lights_of(const Scene& scene) {
     const SceneDescription& d = scene.description();
-    std::size_t triangles = 0;
-    for (const Shape& shape : d.shapes)
+    std::size_t triangles = 0, quadrics = 0;
+    for (const Shape& shape : d.shapes) {
         triangles += shape.area_light >= 0 ? shape.mesh.triangles.size() : 0;
+        quadrics += shape.area_light >= 0 && shape.quadric;
+    }
     const auto is_spot = [](const PointLight& light) { return light.cutoff < 180; };
     const auto is_projector = [&](const PointLight& light) { return light.slide && !is_spot(light); };
     const auto spots = std::count_if(d.point_lights.begin(), d.point_lights.end(), is_spot);
@@ -100,7 +111,7 @@ std::string lights_of(const Scene& scene) {
     const auto points = static_cast<std::ptrdiff_t>(d.point_lights.size()) - spots - projectors;
     std::vector<std::string> parts;
     if (!d.area_lights.empty())
-        parts.push_back(fmt::format("{} area (of {} triangles)", d.area_lights.size(), triangles));
+        parts.push_back(fmt::format("{} area (of {})", d.area_lights.size(), count_of(triangles, quadrics)));
     if (points > 0)
         parts.push_back(fmt::format("{} point", points));
     if (spots > 0)
@@ -124,6 +135,8 @@ void print_scene(const Scene& scene, const TextureSummary& textures) {
         ++materials[kind_of(m)];
     fmt::print("shapes     {}\n", scene.shapes().size());
     fmt::print("triangles  {}\n", scene.triangle_count());
+    if (scene.quadric_count() > 0)
+        fmt::print("quadrics   {}\n", scene.quadric_count());
     if (const SceneDescription& d = scene.description(); !d.groups.empty())
         fmt::print("instances  {} of {} shape group{}\n", d.instances.size(), d.groups.size(),
                    d.groups.size() == 1 ? "" : "s");

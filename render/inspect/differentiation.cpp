@@ -16,29 +16,70 @@ namespace tessera {
 
 namespace {
 
-/// Two sides of a hit triangle, in world space.
-class TrianglePlane {
+/// Two tangents of the surface at a hit, in world space: sides of the triangle, or unit vectors of a quadric's own
+/// space.
+class TangentPlane {
 public:
-    TrianglePlane(const ShapeRecord& shape, const Hit& hit) {
-        const glm::uvec3 t = shape.triangles[hit.triangle];
-        a_ = shape.positions[t.y] - shape.positions[t.x];
-        b_ = shape.positions[t.z] - shape.positions[t.x];
+    TangentPlane(const ShapeRecord& shape, const Hit& hit) : quadric_(shape.quadric) {
+        if (quadric_) {
+            local_ = quadric_->derivatives(hit.local);
+            for (glm::vec3& tangent : local_)
+                tangent = glm::normalize(tangent);
+            a_ = quadric_->vector(local_[0]);
+            b_ = quadric_->vector(local_[1]);
+        } else {
+            const glm::uvec3 t = shape.triangles[hit.triangle];
+            a_ = shape.positions[t.y] - shape.positions[t.x];
+            b_ = shape.positions[t.z] - shape.positions[t.x];
+        }
         if (hit.placement) {
             a_ = hit.placement->vector(a_);
             b_ = hit.placement->vector(b_);
         }
     }
 
-    /// Returns the change of barycentric coordinates along a vector in the plane.
-    glm::vec2 barycentric(glm::vec3 along) const { return coordinates_along(along, a_, b_); }
+    /// Returns the coordinates of a vector in the plane, in units of the tangents.
+    glm::vec2 coordinates(glm::vec3 along) const { return coordinates_along(along, a_, b_); }
     float shortest_side() const { return std::min(glm::length(a_), glm::length(b_ - a_)); }
 
+    /// Moves a hit on the surface by a vector in the plane.
+    void move(Hit& hit, glm::vec3 along) const {
+        const glm::vec2 by = coordinates(along);
+        if (quadric_)
+            hit.local = quadric_->onto_surface(hit.local + by.x * local_[0] + by.y * local_[1]);
+        else
+            hit.barycentric += by;
+    }
+
+    /// Returns the derivatives of a normal by the coordinates, and sets `normal` to it. Its length is arbitrary.
+    std::array<glm::vec3, 2> normal_derivatives(const ShapeRecord& shape, const Hit& hit,
+                                                glm::vec3& normal) const {
+        std::array<glm::vec3, 2> by;
+        if (quadric_) {
+            normal = quadric_->scaled_normal(hit.local);
+            by = {quadric_->scaled_normal(local_[0]), quadric_->scaled_normal(local_[1])};
+        } else {
+            const glm::uvec3 t = shape.triangles[hit.triangle];
+            const glm::vec3 n0 = shape.normals[t.x];
+            by = {shape.normals[t.y] - n0, shape.normals[t.z] - n0};
+            normal = n0 + hit.barycentric.x * by[0] + hit.barycentric.y * by[1];
+        }
+        if (hit.placement)
+            for (glm::vec3* n : {&by[0], &by[1], &normal})
+                *n = hit.placement->of_normals * *n;
+        return by;
+    }
+
 private:
+    const Quadric* quadric_;           // null: a triangle
+    std::array<glm::vec3, 2> local_{}; // tangents of a quadric in its own space
     glm::vec3 a_, b_;
 };
 
-/// Returns whether shading normals vary over the hit triangle.
+/// Returns whether shading normals vary over the hit surface.
 bool is_curved(const ShapeRecord& shape, const Hit& hit) {
+    if (shape.quadric)
+        return shape.quadric->is_curved();
     if (!shape.normals)
         return false;
     const glm::uvec3 t = shape.triangles[hit.triangle];
@@ -49,24 +90,18 @@ bool is_curved(const ShapeRecord& shape, const Hit& hit) {
 class FrameTurns {
 public:
     FrameTurns(const ShapeRecord& shape, const Hit& hit, const Frame& frame) : plane_(shape, hit), frame_(frame) {
-        const glm::uvec3 t = shape.triangles[hit.triangle];
-        const glm::vec3 n0 = shape.normals[t.x];
-        by_barycentric_[0] = shape.normals[t.y] - n0;
-        by_barycentric_[1] = shape.normals[t.z] - n0;
-        glm::vec3 sum = n0 + hit.barycentric.x * by_barycentric_[0] + hit.barycentric.y * by_barycentric_[1];
-        if (hit.placement)
-            for (glm::vec3* n : {&by_barycentric_[0], &by_barycentric_[1], &sum})
-                *n = hit.placement->of_normals * *n;
+        glm::vec3 sum;
+        by_coordinate_ = plane_.normal_derivatives(shape, hit, sum);
         // The frame's normal may be flipped, by a two-sided material.
         const float length = glm::length(sum), scale = std::copysign(1 / length, glm::dot(sum, frame.normal));
-        for (glm::vec3& n : by_barycentric_)
+        for (glm::vec3& n : by_coordinate_)
             n = scale * n - glm::dot(scale * n, frame.normal) * frame.normal;
     }
 
     /// Returns the rotation vector per unit of distance along a direction; its length is an angle in radians.
     glm::vec3 along(glm::vec3 direction) const {
-        const glm::vec2 by = plane_.barycentric(direction);
-        const glm::vec3 change = by.x * by_barycentric_[0] + by.y * by_barycentric_[1];
+        const glm::vec2 by = plane_.coordinates(direction);
+        const glm::vec3 change = by.x * by_coordinate_[0] + by.y * by_coordinate_[1];
         const float size = glm::length(change);
         if (!(size > 0))
             return glm::vec3(0);
@@ -80,9 +115,9 @@ public:
     }
 
 private:
-    TrianglePlane plane_;
+    TangentPlane plane_;
     const Frame& frame_;
-    std::array<glm::vec3, 2> by_barycentric_;
+    std::array<glm::vec3, 2> by_coordinate_;
 };
 
 bool is_plain_diffuse(const Vertex& x) {
@@ -99,9 +134,9 @@ bool is_constant(const std::optional<Texture>& texture) {
 /// Returns whether textures change the directions of a scatter, and not only its reflectance. Returns true for
 /// materials with many textures without looking at them.
 bool scatters_by_texture(const ShapeRecord& shape) {
-    if (!shape.uvs && !shape.attributed)
+    if (!shape.has_uv() && !shape.attributed)
         return false;
-    if (shape.has_frame_along_u && shape.normals)
+    if (shape.has_frame_along_u && (shape.normals || shape.quadric))
         return true; // the frame follows the texture's u
     if (shape.material->relief || shape.material->back)
         return true;
@@ -144,7 +179,7 @@ public:
     }
     /// Returns the derivative by the position along a unit vector in the plane, including texture lookups.
     Turn by_position(glm::vec3 along) {
-        const float step = std::min(angle_ * hit_.distance, 0.2f * TrianglePlane(shape(), hit_).shortest_side());
+        const float step = std::min(angle_ * hit_.distance, 0.2f * TangentPlane(shape(), hit_).shortest_side());
         return differ(moved(step * along), step, moved(-step * along), step);
     }
 
@@ -164,7 +199,7 @@ private:
 
     std::optional<Turn> moved(glm::vec3 by) {
         Hit hit = hit_;
-        hit.barycentric += TrianglePlane(shape(), hit_).barycentric(by);
+        TangentPlane(shape(), hit_).move(hit, by);
         make_vertex(scene_, hit, {ray_.origin + by, ray_.direction}, moved_vertex_);
         moved_vertex_.guide = x_.guide;
         return scattered(moved_vertex_, moved_vertex_.to_previous, s_.u);

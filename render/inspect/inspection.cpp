@@ -93,7 +93,7 @@ Rgb very_direct_of(const Pass& pass, glm::ivec2 pixel, bool is_alone, int number
 /// @param d  derivatives of vertex i of the path
 void add_light_footprint(const Worker& worker, int i, const PathDerivatives& d, const DeltaRule& rule,
                          InspectedVertex& x) {
-    if (x.light && worker.path.light(i).light.kind == LightPoint::Kind::surface)
+    if (x.light && worker.path.light(i).light.has_area())
         x.light->footprint = footprint(differentiate_light(worker.tracer, worker.path, i, d), rule);
 }
 

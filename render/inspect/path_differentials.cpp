@@ -55,7 +55,7 @@ Scattering scattering_of(const BasePath& path, int i) {
 PathDerivatives differentiate_light(const Tracer& tracer, const BasePath& path, int i,
                                     const PathDerivatives& vertex) {
     const LightPoint& light = path.light(i).light;
-    const LightDerivatives by = tracer.scene.lights().differentiate(path.random, i + 1);
+    const LightDerivatives by = tracer.scene.lights().differentiate(path[i].vertex.position, path.random, i + 1);
     PathDerivatives d{};
     d.count = 2;
     d.normal = light.normal;

@@ -32,6 +32,8 @@ void set_back(Material& front, Material back, const Properties& p) {
         p.note("the mask on the back of 'twosided' is left out");
     back.opacity.reset();
     back.back.reset();
+    if (back.relief)
+        back.relief->is_mirrored_behind = true;
     back.two_sided = false; // the front's is that of the material
     front.back = std::make_shared<const Material>(std::move(back));
 }
@@ -50,6 +52,8 @@ Material read_twosided(LoadContext& context, Properties& p) {
         return material;
     }
     material.two_sided = true;
+    if (material.relief)
+        material.relief->is_mirrored_behind = true;
     if (nested.size() > 1)
         set_back(material, read_bsdf(context, nested[1]), p);
     return material;
@@ -92,7 +96,7 @@ Texture nested_texture(LoadContext& context, Properties& p) {
 
 void set_relief(const LoadContext& context, Properties& p, Material& material, Relief relief) {
     relief.use_shadowing_function = p.boolean("use_shadowing_function", !context.old_syntax);
-    p.ignore({"flip_invalid_normals"}); // such directions are always black in Tessera
+    relief.turns_to_viewer = p.boolean("flip_invalid_normals", !context.old_syntax);
     if (material.relief)
         p.note("the bump or normal map inside this one is left out");
     material.relief = relief;

@@ -29,18 +29,14 @@ MeshPlacement placement_parameters(Properties& p) {
 namespace {
 
 /// Places a generated mesh. Errors point at the shape, as there is no file.
-template <class Place>
-void place_builtin(const Properties& p, Shape& shape, Mesh mesh, const MeshPlacement& placement, Place place) {
+void read_flat_shape(Properties& p, Shape& shape, Mesh mesh) {
+    const MeshPlacement placement = placement_parameters(p);
     try {
-        place(mesh, placement);
+        place_flat_mesh(mesh, placement);
     } catch (const std::runtime_error& e) {
         p.element().fail(e.what());
     }
     shape.mesh = std::move(mesh);
-}
-
-void read_flat_shape(Properties& p, Shape& shape, Mesh mesh) {
-    place_builtin(p, shape, std::move(mesh), placement_parameters(p), place_flat_mesh);
 }
 
 void read_rectangle(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
@@ -52,10 +48,6 @@ void read_cube(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::siz
     read_flat_shape(p, shapes[index], make_cube());
 }
 
-void note_tessellation(const Properties& p, const Mesh& mesh) {
-    p.note("the " + p.type() + " is approximated by " + std::to_string(mesh.triangles.size()) + " triangles");
-}
-
 float radius_parameter(Properties& p) {
     const float radius = p.number("radius", 1);
     if (!(radius > 0))
@@ -64,21 +56,22 @@ float radius_parameter(Properties& p) {
 }
 
 /// `to_shape` maps the unit shape to the shape's parameters, and is applied before to_world.
-void read_round_shape(Properties& p, Shape& shape, Mesh mesh, const glm::mat4& to_shape) {
-    MeshPlacement placement = placement_parameters(p);
-    placement.to_world = placement.to_world * to_shape;
-    place_builtin(p, shape, std::move(mesh), placement, place_mesh);
-    note_tessellation(p, shape.mesh);
+void read_quadric(Properties& p, Shape& shape, Quadric::Kind kind, const glm::mat4& to_shape = glm::mat4(1.0f)) {
+    const MeshPlacement placement = placement_parameters(p);
+    try {
+        shape.quadric.emplace(kind, placement.to_world * to_shape, placement.flip_normals);
+    } catch (const std::runtime_error& e) {
+        p.element().fail(e.what());
+    }
 }
 
 void read_sphere(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
     const glm::mat4 to_center = glm::translate(glm::mat4(1.0f), p.point("center", glm::vec3(0)));
-    read_round_shape(p, shapes[index], make_sphere(), glm::scale(to_center, glm::vec3(radius_parameter(p))));
+    read_quadric(p, shapes[index], Quadric::Kind::sphere, glm::scale(to_center, glm::vec3(radius_parameter(p))));
 }
 
 void read_disk(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
-    read_flat_shape(p, shapes[index], make_disk());
-    note_tessellation(p, shapes[index].mesh);
+    read_quadric(p, shapes[index], Quadric::Kind::disk);
 }
 
 void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std::size_t index) {
@@ -91,10 +84,10 @@ void read_cylinder(LoadContext&, Properties& p, std::vector<Shape>& shapes, std:
     const Frame frame(axis / length);
     const glm::mat4 to_shape(glm::vec4(radius * frame.tangent, 0), glm::vec4(radius * frame.bitangent, 0),
                              glm::vec4(axis, 0), glm::vec4(p0, 1));
-    read_round_shape(p, shapes[index], make_cylinder(), to_shape);
+    read_quadric(p, shapes[index], Quadric::Kind::cylinder, to_shape);
 }
 
-// A new plugin adds its row here. The reader fills shapes[index].mesh, at once or in a job.
+// A new plugin adds its row here. The reader fills mesh or quadric of shapes[index], at once or in a job.
 constexpr Plugin<void (*)(LoadContext&, Properties&, std::vector<Shape>&, std::size_t)> plugins[] = {
     {"rectangle", read_rectangle}, {"cube", read_cube},
     {"disk", read_disk},           {"sphere", read_sphere},
@@ -118,7 +111,7 @@ int area_light_parameter(LoadContext& context, Properties& p) {
     return emitter ? add_shape_emitter(context, *emitter) : -1;
 }
 
-/// Adds a shape with triangles to `shapes`. The vector must stay at its address until all files are read. A shape
+/// Adds a shape with a surface to `shapes`. The vector must stay at its address until all files are read. A shape
 /// of an unknown type or with an invalid parameter is left out, with an error note.
 void add_mesh_shape(LoadContext& context, Properties& properties, std::vector<Shape>& shapes) {
     Shape shape;
@@ -229,7 +222,7 @@ void note_missing_attributes(LoadContext& context) {
     const SceneDescription& scene = context.scene;
     for (const LoadContext::LoadedShape& loaded : context.shapes) {
         const Shape& shape = (*loaded.shapes)[loaded.index];
-        if (shape.mesh.triangles.empty())
+        if (shape.mesh.triangles.empty() && !shape.quadric)
             continue; // an empty mesh has a note of its own
         std::vector<const Texture*> textures = scene.materials[shape.material].textures();
         if (shape.area_light >= 0)

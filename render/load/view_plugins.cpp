@@ -174,7 +174,8 @@ void read_field_of_view(Properties& p, Camera& camera) {
 void read_integrator(LoadContext& context, const XmlElement& element) {
     const NestingGuard guard(context, element);
     Properties p(element, context.notes);
-    const int depth = p.integer("max_depth", -1);
+    const bool is_direct = p.type() == "direct"; // emission and direct light
+    const int depth = p.integer("max_depth", is_direct ? 2 : -1);
     if (depth < -1 || depth == 0)
         p.take("max_depth")->fail("'max_depth' must be at least 1, or -1 for no limit", "value");
     if (depth > most_edges)
@@ -183,8 +184,8 @@ void read_integrator(LoadContext& context, const XmlElement& element) {
                            most_edges));
     context.scene.max_depth = depth == -1 ? unlimited_depth : depth;
     context.scene.hides_emitters = p.boolean("hide_emitters", context.scene.hides_emitters);
-    if (p.type() == "path") {
-        p.ignore({"rr_depth", "strict_normals"});
+    if (p.type() == "path" || is_direct) {
+        p.ignore({"rr_depth", "strict_normals", "shading_samples", "emitter_samples", "bsdf_samples"});
         p.report_unused();
         return;
     }

@@ -1,4 +1,4 @@
-// Meshes: reading files, placement in a scene, and tessellated shapes.
+// Meshes: reading files, placement in a scene, and shapes with flat faces.
 #pragma once
 
 #include "render/mesh/mesh_file.h"
@@ -68,21 +68,5 @@ Mesh make_rectangle();
 
 /// Returns the cube [-1, 1]^3, with its front outside, and uv from 0 to 1 on every face as in Mitsuba.
 Mesh make_cube();
-
-// Tessellated round shapes, with exact normals and Mitsuba's uv at the vertices. Each has the exact area of its
-// shape (to float precision): the vertices are a little outside of it, and the centres of triangles a little
-// inside.
-
-/// Returns a sphere of radius 1 about the origin, with its front outside; u = phi / 2 pi about +z, v = theta /
-/// pi from +z. Its points are within 2e-4 of the exact sphere.
-Mesh make_sphere();
-
-/// Returns a disk of radius 1 about the origin in the plane z = 0, with its front toward +z, without normals; u
-/// = radius, v = phi / 2 pi.
-Mesh make_disk();
-
-/// Returns the side of a cylinder of radius 1 about the z axis from z = 0 to 1, with its front outside and open
-/// at both ends; u = phi / 2 pi, v = z.
-Mesh make_cylinder();
 
 } // namespace tessera

@@ -60,6 +60,7 @@ bool draw_light(const Tracer& tracer, const Vertex& x, const Random& random, int
     // The balance heuristic of emitter and BSDF sampling, theory (3) and (4) [Veach 1997, 9.2.2].
     drawn.f_cos = b.f_cos;
     drawn.pdf_w = seen->pdf_w;
+    drawn.fixed_pdf_w = seen->fixed_pdf_w;
     drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
     drawn.brings = b.f_cos * seen->radiance / drawn.pdf_sum;
     way = tracer.toward_light(x, drawn.light, seen->direction);
@@ -156,9 +157,9 @@ bool extend(const Tracer& tracer, int index, RayKind kind, BasePath& path) {
     path.own_width = tracer.width_beyond(path.own_width, std::sqrt(distance2), s->is_delta);
     v.hit_pdf_w = 0;
     v.hit_contribution = Rgb(0);
-    if (next.vertex.emitter_pdf_a > 0) {
+    if (next.vertex.emitter_pdf > 0) {
         const LightPoint light = next.vertex.light_toward(-direction);
-        add_hit(v, light.radiance, light.pdf / v.next_geometry); // per area over geometry is per solid angle
+        add_hit(v, light.radiance, light.pdf_w(x.position, v.next_geometry));
     }
     path.keep();
     path.mirrors += path.mirrors == index && next.vertex.bsdf.is_mirror();

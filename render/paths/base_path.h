@@ -16,8 +16,9 @@ struct LightSample {
     LightPoint light;
     glm::vec3 to_light; ///< unit, in the vertex's frame
     Rgb f_cos{0};
-    float pdf_w = 0;   ///< of emitter sampling
-    float pdf_sum = 0; ///< of emitter and BSDF sampling together, theory (3)
+    float pdf_w = 0;       ///< of emitter sampling
+    float fixed_pdf_w = 0; ///< LightRay::fixed_pdf_w
+    float pdf_sum = 0;     ///< of emitter and BSDF sampling together, theory (3)
     /// Radiance toward x_{i-1} with its MIS weight, f cos Le / pdf_sum; black: no sample was drawn, or
     /// the light is occluded.
     Rgb brings{0};

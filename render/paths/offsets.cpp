@@ -123,15 +123,24 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 
     }
 }
 
+void ball_pdfs(const OffsetVertices& y, const LightPoint& light, FloatLanes& pdf_w) {
+    for (int m = 0; m < padded(y.count()); ++m)
+        pdf_w[m] = light.pdf * light.ball->cone_pdf_w(y.position[m]);
+}
+
 void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light,
                       ConnectionLanes& sight, LightLanes& arriving) {
-    if (light.kind == LightPoint::Kind::surface) {
+    if (light.has_area()) {
         connect_to_point(y, lanes, light.position, light.normal, true, sight);
         for (int m = 0; m < padded(y.count()); ++m) {
             arriving.pdf_w[m] = light.pdf / sight.geometry[m];
             arriving.radiance.x[m] = light.radiance.x;
             arriving.radiance.y[m] = light.radiance.y;
             arriving.radiance.z[m] = light.radiance.z;
+        }
+        if (light.kind == LightPoint::Kind::ball) {
+            arriving.ball_fixed_pdf_w = arriving.pdf_w;
+            ball_pdfs(y, light, arriving.pdf_w);
         }
         return;
     }

@@ -141,8 +141,17 @@ void connect_to_point(const OffsetVertices& y, const LaneMask& lanes, glm::vec3 
 /// Light from a point on a light at offset vertices, one lane for each pixel.
 struct LightLanes {
     Vec3Lanes radiance;
-    FloatLanes pdf_w; ///< of emitter sampling, per solid angle at the vertex (LightRay::pdf_w)
+    FloatLanes pdf_w;            ///< of emitter sampling, per solid angle at the vertex (LightRay::pdf_w)
+    FloatLanes ball_fixed_pdf_w; ///< LightRay::fixed_pdf_w of a ball, unset for other lights
+
+    /// Returns LightRay::fixed_pdf_w, which is pdf_w except of a ball.
+    const FloatLanes& fixed_pdf_w(const LightPoint& light) const {
+        return light.kind == LightPoint::Kind::ball ? ball_fixed_pdf_w : pdf_w;
+    }
 };
+
+/// Sets the pdfs of emitter sampling of a ball, per solid angle at the vertices.
+void ball_pdfs(const OffsetVertices& y, const LightPoint& light, FloatLanes& pdf_w);
 
 /// Connects vertices to a point on a light, or to a direction at infinity, without visibility.
 void connect_to_light(const OffsetVertices& y, const LaneMask& lanes, const LightPoint& light,

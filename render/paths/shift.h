@@ -221,7 +221,8 @@ private:
     // Scratch memory, too large for the stack.
     VertexConnection vertex_connection_;
     LightConnection light_connection_;
-    BsdfLanes beyond_; ///< at x_{i+1}, toward y_i
+    BsdfLanes beyond_;      ///< at x_{i+1}, toward y_i
+    FloatLanes ball_pdf_w_; ///< of emitter sampling, at y_i toward a ball at x_{i+1}
 };
 
 } // namespace tessera

@@ -35,12 +35,13 @@ void Shift::connect_light(int i, bool connectable) {
     record_first_scatter(i, slot, slot + 1, c.sight.direction, c.bsdf);
     OffsetRow& row = paths_->row(slot);
     EdgeGroup& edges = edges_->add(slot, slot + 1);
-    const float bsdf_counts = x.light.can_be_hit() ? 1 : 0, share = x.pdf_w / x.pdf_sum;
+    const float bsdf_counts = x.light.can_be_hit() ? 1 : 0, share = x.fixed_pdf_w / x.pdf_sum;
+    const FloatLanes& fixed_pdf_w = c.arriving.fixed_pdf_w(x.light);
     for (int m = 0; m < padded(y_->count()); ++m) {
         const float pdf_sum = c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m];
-        // The point has the same pdf for all pixels, so J, the quotient of solid angles, is the inverse quotient
-        // of the pdfs per solid angle. `scale` is J / P_k, and the row is theory (6) and (7).
-        const float scale = share / c.arriving.pdf_w[m];
+        // J, the quotient of solid angles, is the inverse quotient of the densities that are fixed on the light.
+        // `scale` is J / P_k, and the row is theory (6) and (7).
+        const float scale = share / fixed_pdf_w[m];
         const float ratio = c.sight.valid[m] ? prefix_.ratio[m] * pdf_sum * scale : 0.0f;
         row.set(m, ratio,
                 {prefix_.value.x[m] * c.bsdf.f_cos.x[m] * c.arriving.radiance.x[m] * scale,
@@ -51,7 +52,7 @@ void Shift::connect_light(int i, bool connectable) {
     notify(edges.exists, [&](int m) {
         observer_->ends(m, slot,
                         last_step(slot, m, c.bsdf.pdf_w[m] * bsdf_counts + c.arriving.pdf_w[m],
-                                  x.pdf_w / c.arriving.pdf_w[m]));
+                                  x.fixed_pdf_w / fixed_pdf_w[m]));
     });
     edges_to_light(tracer_, *y_, c.sight.direction, x.light, edges.segments);
     record_failures(c.eligible, edges.exists, ShiftOutcome::no_light);
@@ -156,17 +157,21 @@ void Shift::shift_hit(const VertexConnection& c) {
     const glm::vec3 normal = next.geometric_normal;
     const Vec3Lanes& direction = c.sight.direction;
     OffsetRow& row = paths_->row(slot);
+    const bool is_ball = front.kind == LightPoint::Kind::ball;
+    if (is_ball)
+        ball_pdfs(*y_, front, ball_pdf_w_);
+    const auto emitter_pdf_w = [&](int m) { return is_ball ? ball_pdf_w_[m] : front.pdf / c.sight.geometry[m]; };
     for (int m = 0; m < padded(y_->count()); ++m) {
         const bool faces = direction.x[m] * normal.x + direction.y[m] * normal.y + direction.z[m] * normal.z < 0;
         // J / P_k; the prefix of the connection has only the pdf of BSDF sampling.
         const float scale = c.sight.geometry[m] / (x.next_geometry * (x.pdf_w + x.hit_pdf_w));
-        const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m]) * scale;
+        const float ratio = prefix_.ratio[m] * (c.bsdf.pdf_w[m] + emitter_pdf_w(m)) * scale;
         row.set(m, faces && c.lit[m] ? ratio : 0.0f, prefix_.value[m] * c.bsdf.f_cos[m] * front.radiance * scale);
     }
     notify(c.lit, [&](int m) {
-        observer_->ends(m, slot,
-                        last_step(slot, m, c.bsdf.pdf_w[m] + front.pdf / c.sight.geometry[m],
-                                  c.sight.geometry[m] / x.next_geometry));
+        observer_->ends(
+            m, slot,
+            last_step(slot, m, c.bsdf.pdf_w[m] + emitter_pdf_w(m), c.sight.geometry[m] / x.next_geometry));
     });
 }
 

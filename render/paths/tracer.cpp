@@ -16,8 +16,14 @@ T interpolate(T a, T b, T c, glm::vec2 barycentric) {
     return (1 - barycentric.x - barycentric.y) * a + barycentric.x * b + barycentric.y * c;
 }
 
-/// Computes the derivatives of the position by u and v. Returns false if the uvs are degenerate.
-bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& by_u, glm::vec3& by_v) {
+/// Computes the derivatives of the position by u and v in the shape's space.
+void shape_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& by_u, glm::vec3& by_v) {
+    if (shape.quadric) {
+        const auto [local_by_u, local_by_v] = shape.quadric->derivatives(hit.local);
+        by_u = shape.quadric->vector(local_by_u);
+        by_v = shape.quadric->vector(local_by_v);
+        return;
+    }
     const glm::uvec3 t = shape.triangles[hit.triangle];
     const glm::vec3 edge1 = shape.positions[t.y] - shape.positions[t.x];
     const glm::vec3 edge2 = shape.positions[t.z] - shape.positions[t.x];
@@ -29,6 +35,11 @@ bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& b
         by_u = (d2.y * edge1 - d1.y * edge2) / determinant;
         by_v = (d1.x * edge2 - d2.x * edge1) / determinant;
     }
+}
+
+/// Computes the derivatives of the position by u and v. Returns false if the uvs are degenerate.
+bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& by_u, glm::vec3& by_v) {
+    shape_derivatives(shape, hit, by_u, by_v);
     if (hit.placement) {
         by_u = hit.placement->vector(by_u);
         by_v = hit.placement->vector(by_v);
@@ -40,13 +51,13 @@ bool position_derivatives(const ShapeRecord& shape, const Hit& hit, glm::vec3& b
 /// depends on the triangle's normal only, as in Mitsuba 3.
 Frame frame_along_u(const ShapeRecord& shape, const Hit& hit, glm::vec3 geometric_normal, glm::vec3 normal) {
     glm::vec3 by_u, by_v;
-    if (!shape.uvs || !position_derivatives(shape, hit, by_u, by_v))
+    if (!shape.has_uv() || !position_derivatives(shape, hit, by_u, by_v))
         by_u = Frame(geometric_normal).tangent;
     return {normal, by_u};
 }
 
-/// Returns the interpolated unit shading normal, without bump or normal map. Sets `geometric_normal` to the
-/// triangle's normal on its front side.
+/// Returns the unit shading normal, interpolated on a mesh, without bump or normal map. Sets `geometric_normal` to
+/// the surface's normal on its front side.
 glm::vec3 shading_normal(const ShapeRecord& shape, const Hit& hit, glm::vec3& geometric_normal) {
     geometric_normal = hit.geometric_normal;
     if (!shape.normals)
@@ -118,11 +129,24 @@ void set_footprint(const TextureView::Sides& sides, glm::vec3 by_u, glm::vec3 by
     footprint.across = coordinates_along(sides.b, by_u, by_v);
 }
 
+/// Returns the position of a hit by its coordinates on the shape.
+glm::vec3 position_on_shape(const ShapeRecord& shape, const Hit& hit) {
+    glm::vec3 p;
+    if (shape.quadric) {
+        p = shape.quadric->position(hit.local);
+    } else {
+        const glm::uvec3 t = shape.triangles[hit.triangle];
+        p = interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
+    }
+    return hit.placement ? hit.placement->point(p) : p;
+}
+
 } // namespace
 
 LightPoint Vertex::light_toward(glm::vec3 direction) const {
     const bool front = glm::dot(geometric_normal, direction) > 0;
-    return {LightPoint::Kind::surface, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf_a};
+    const auto kind = emitting_ball ? LightPoint::Kind::ball : LightPoint::Kind::surface;
+    return {kind, position, geometric_normal, front ? emitted : Rgb(0), emitter_pdf, nullptr, emitting_ball};
 }
 
 std::optional<BsdfSample> Vertex::sample_guided(glm::vec3 to_viewer, float lobe, glm::vec2 u) const {
@@ -192,25 +216,22 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
                  float width) {
     const ShapeRecord& shape = scene.record(hit.shape);
     v.position = ray.origin + hit.distance * ray.direction;
-    if (hit.distance > 8 * scene.radius()) {
-        // Over long distances, the point along the ray is less exact than Intersector::off_surface() assumes.
-        const glm::uvec3 t = shape.triangles[hit.triangle];
-        v.position =
-            interpolate(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z], hit.barycentric);
-        if (hit.placement)
-            v.position = hit.placement->point(v.position);
-    }
+    // Over long distances, the point along the ray is less exact than Intersector::off_surface() assumes.
+    if (shape.quadric || hit.distance > 8 * scene.radius()) [[unlikely]]
+        v.position = position_on_shape(shape, hit);
     v.guide = nullptr;
     const glm::vec3 normal = shading_normal(shape, hit, v.geometric_normal);
     SurfacePoint at(hit.barycentric);
-    if (shape.uvs) {
+    if (shape.quadric) [[unlikely]] {
+        at.uv = shape.quadric_uses_uv ? shape.quadric->uv(hit.local) : glm::vec2(0);
+    } else if (shape.uvs) {
         const glm::uvec3 t = shape.triangles[hit.triangle];
         at.uv = interpolate(shape.uvs[t.x], shape.uvs[t.y], shape.uvs[t.z], hit.barycentric);
     }
     if (shape.attributed) {
         at.mesh = shape.attributed;
         at.on_mesh = {hit.triangle, hit.barycentric};
-    } else if (glm::vec3 by_u, by_v; view && shape.uvs && position_derivatives(shape, hit, by_u, by_v)) {
+    } else if (glm::vec3 by_u, by_v; view && shape.has_uv() && position_derivatives(shape, hit, by_u, by_v)) {
         const bool is_own = width >= 0;
         const auto beam = [&] {
             return is_own ? TextureView::Beam{ray.direction, width + view->angle() * hit.distance}
@@ -230,9 +251,12 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
         if (position_derivatives(shape, hit, by_u, by_v)) {
             bent = bend(*material.relief, at, normal, by_u, by_v);
             v.bsdf.terminator = terminator_of(*material.relief, glm::dot(normal, bent));
+            v.bsdf.turns_relief = material.relief->turns_to_viewer;
         }
     }
-    const Frame frame = shading_frame(shape, hit, v.geometric_normal, shown * bent);
+    const bool is_mirrored = shown < 0 && material.relief && material.relief->is_mirrored_behind;
+    const glm::vec3 facing = is_mirrored ? bent - 2 * glm::dot(bent, normal) * normal : shown * bent;
+    const Frame frame = shading_frame(shape, hit, v.geometric_normal, facing);
     if (v.bsdf.has_relief())
         v.bsdf.interpolated_normal = frame.to_local(shown * normal);
     v.to_previous = frame.to_local(-ray.direction);
@@ -241,7 +265,14 @@ void make_vertex(const Scene& scene, const Hit& hit, const Ray& ray, Vertex& v, 
     v.emitted = !shape.emission_map  ? shape.emitted
                 : view && width >= 0 ? shape.emission_map->filtered(at)
                                      : shape.emission_map->evaluate(at);
-    v.emitter_pdf_a = shape.emitter_pdf_a;
+    v.emitter_pdf = shape.emitter_pdf;
+    v.emitting_ball = nullptr;
+    if (shape.quadric && shape.emitter_pdf > 0) [[unlikely]] {
+        if (shape.quadric->is_ball())
+            v.emitting_ball = shape.quadric;
+        else
+            v.emitter_pdf *= shape.quadric->pdf_a(hit.local);
+    }
 }
 
 FeatureSample feature_sample_along(const Tracer& tracer, Ray ray, const Random& random) {

@@ -22,13 +22,14 @@ struct Ray;
 /// Vertex of a path on a surface, with everything that scattering needs. Textures are already evaluated.
 struct Vertex {
     glm::vec3 position;
-    glm::vec3 geometric_normal; ///< unit, on the front side of the triangle
+    glm::vec3 geometric_normal; ///< unit, on the front side of the surface
     Frame frame;                ///< shading frame; on a two-sided material on the side of to_previous
     Bsdf bsdf;
-    glm::vec3 to_previous;                 ///< unit, in `frame`
-    Rgb emitted{0};                        ///< emitted radiance on the front side; black: no emitter
-    float emitter_pdf_a = 0;               ///< pdf of emitter sampling here, per area; 0: no emitter
-    const DirectionGuide* guide = nullptr; ///< null: the BSDF draws all directions
+    glm::vec3 to_previous;                  ///< unit, in `frame`
+    Rgb emitted{0};                         ///< emitted radiance on the front side; black: no emitter
+    float emitter_pdf = 0;                  ///< LightPoint::pdf of the emitter here; 0: no emitter
+    const Quadric* emitting_ball = nullptr; ///< LightPoint::ball of the emitter here
+    const DirectionGuide* guide = nullptr;  ///< null: the BSDF draws all directions
 
     glm::vec3 to_local(glm::vec3 world) const { return frame.to_local(world); }
     glm::vec3 to_world(glm::vec3 local) const { return frame.to_world(local); }
@@ -149,7 +150,7 @@ struct Tracer {
         if (!scene.intersector().closest(ray, hit))
             return Met::infinity;
         const ShapeRecord& shape = scene.record(hit.shape);
-        if (shape.emitter_pdf_a <= 0 && !(or_mirror && shape.material->may_be_mirror()))
+        if (shape.emitter_pdf <= 0 && !(or_mirror && shape.material->may_be_mirror()))
             return Met::darkness;
         if (hits) [[unlikely]]
             hits->push_back(hit);

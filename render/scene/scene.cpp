@@ -28,15 +28,19 @@ ShapeRecord make_record(const Shape& shape, const SceneDescription& description,
     bool is_textured = material.is_textured();
     if (shape.area_light >= 0) {
         const Texture& radiance = description.area_lights[shape.area_light].radiance;
-        record.emitter_pdf_a = lights.pdf_a(shape.area_light);
+        record.emitter_pdf = shape.quadric ? lights.probability_of(*shape.quadric, shape.area_light)
+                                           : lights.pdf_a(shape.area_light);
         record.emitted = radiance.mean();
         if (!radiance.is_constant())
             record.emission_map = &radiance;
         is_textured = is_textured || !radiance.is_constant();
     }
     record.has_frame_along_u = material.is_anisotropic();
-    if (!mesh.uvs.empty() && (is_textured || record.has_frame_along_u))
+    const bool uses_uv = is_textured || record.has_frame_along_u;
+    if (!mesh.uvs.empty() && uses_uv)
         record.uvs = mesh.uvs.data();
+    record.quadric = shape.quadric ? &*shape.quadric : nullptr;
+    record.quadric_uses_uv = shape.quadric && uses_uv;
     if (!mesh.attributes.empty() && is_textured)
         record.attributed = &mesh;
     return record;
@@ -65,9 +69,15 @@ struct Box {
 };
 
 void add(const std::vector<Shape>& shapes, Box& box) {
-    for (const Shape& shape : shapes)
+    for (const Shape& shape : shapes) {
         for (glm::vec3 p : shape.mesh.positions)
             box.add(p);
+        if (shape.quadric) {
+            const Quadric::Bounds bounds = shape.quadric->bounds();
+            box.add(bounds.low);
+            box.add(bounds.high);
+        }
+    }
 }
 
 /// Adds the transformed corners of a group's box.
@@ -100,7 +110,7 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
         std::ranges::any_of(records_, [](const ShapeRecord& record) { return record.material->may_be_mirror(); });
 }
 
-/// Computes the bounding sphere of all triangles; instances count with the boxes of their groups.
+/// Computes the bounding sphere of all surfaces; instances count with the boxes of their groups.
 void Scene::measure() {
     Box box;
     add(description_.shapes, box);
@@ -118,6 +128,12 @@ void Scene::measure() {
 std::size_t Scene::triangle_count() const {
     std::size_t sum = 0;
     for_each_shape(description_, [&](const Shape& shape) { sum += shape.mesh.triangles.size(); });
+    return sum;
+}
+
+std::size_t Scene::quadric_count() const {
+    std::size_t sum = 0;
+    for_each_shape(description_, [&](const Shape& shape) { sum += shape.quadric.has_value(); });
     return sum;
 }
 

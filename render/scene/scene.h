@@ -55,13 +55,17 @@ struct ShapeRecord {
     const glm::uvec3* triangles;
     const glm::vec3* positions;
     const glm::vec3* normals; ///< null: triangles are flat
-    const glm::vec2* uvs;     ///< null: absent or unused
+    const glm::vec2* uvs;     ///< of a mesh; null: absent or unused
     const Mesh* attributed;   ///< mesh with attributes; null: absent or unused
     const Material* material;
     Rgb emitted;                 ///< radiance on the front side, or its mean if textured
     const Texture* emission_map; ///< textured radiance; null: constant
-    float emitter_pdf_a;         ///< pdf of emitter sampling, per area; 0: not an emitter
-    bool has_frame_along_u;      ///< whether shading tangents must follow the texture's u
+    float emitter_pdf; ///< of emitter sampling: per area on a mesh, probability of a quadric; 0: not an emitter
+    bool has_frame_along_u; ///< whether shading tangents must follow the texture's u
+    const Quadric* quadric; ///< null: a mesh
+    bool quadric_uses_uv;   ///< whether shading of the quadric needs u and v
+
+    bool has_uv() const { return uvs || quadric_uses_uv; }
 };
 
 /// A scene ready to be rendered; immutable, so that threads can share it.
@@ -92,12 +96,14 @@ public:
     /// Returns whether any shape has an opacity other than 1, so that it stops rays at random.
     bool has_masks() const { return has_masks_; }
 
-    /// Bounding sphere of all triangles.
+    /// Bounding sphere of all surfaces.
     glm::vec3 center() const { return center_; }
     float radius() const { return radius_; }
 
     /// Returns the number of triangles; those of a group count once.
     std::size_t triangle_count() const;
+    /// Returns the number of quadrics; those of a group count once.
+    std::size_t quadric_count() const;
     double bvh_seconds() const { return bvh_seconds_; }
 
 private:

@@ -86,6 +86,7 @@ private:
     }
 
     void take(const Mesh& mesh);
+    void take(const Quadric& quadric);
     void take(const Bitmap& bitmap);
     void take(const BitmapTexture& texture);
     void take(const CheckerboardTexture& texture);
@@ -127,6 +128,10 @@ void SceneDigest::take(const Mesh& mesh) {
     for (const auto& [name, values] : attributes)
         if (name != vertex_color)
             add(std::vector<char>(name.begin(), name.end()), values);
+}
+
+void SceneDigest::take(const Quadric& quadric) {
+    add(quadric.kind(), quadric.to_world(), quadric.has_front_inside());
 }
 
 void SceneDigest::take(const AttributeTexture& texture) {
@@ -233,8 +238,10 @@ void SceneDigest::take(const MediumLayerMaterial& material) {
 }
 
 void SceneDigest::take(const Relief& relief) {
-    const auto& [kind, map, scale, use_shadowing_function] = relief;
+    const auto& [kind, map, scale, use_shadowing_function, is_mirrored_behind, turns_to_viewer] = relief;
     add(kind, map, scale, use_shadowing_function);
+    add_if(is_mirrored_behind, is_mirrored_behind);
+    add_if(turns_to_viewer, turns_to_viewer);
 }
 
 void SceneDigest::take(const Material& material) {
@@ -307,8 +314,10 @@ SceneChecksums checksums_of(const SceneDescription& scene, const Camera& camera)
         material_checksums.push_back(SceneDigest(bitmaps).add(material).checksum());
     SceneDigest geometry(bitmaps), surfaces(bitmaps), lights(bitmaps);
     for_each_shape(scene, [&](const Shape& shape) {
-        const auto& [name, mesh, material, area_light] = shape;
+        const auto& [name, mesh, material, area_light, quadric] = shape;
         geometry.add(mesh);
+        if (quadric) // as add_if()
+            geometry.add(*quadric);
         // The index itself would depend on unused materials.
         surfaces.add(material_checksums.at(static_cast<std::size_t>(material)));
         lights.add(area_light >= 0);

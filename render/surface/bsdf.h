@@ -36,12 +36,14 @@ struct Bsdf {
     /// negative: the frame is not bent.
     float terminator = -1;
     bool has_relief() const { return terminator >= 0; }
+    /// Whether a relief that to_previous sees from behind is turned by a half turn about interpolated_normal, so
+    /// that the bent normal faces to_previous, as with Mitsuba's `flip_invalid_normals`. Otherwise it is black.
+    bool turns_relief = false;
 
     BsdfValue evaluate(glm::vec3 to_previous, glm::vec3 to_next) const {
-        BsdfValue v = std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
         if (has_relief()) [[unlikely]]
-            v = is_cut(to_previous, to_next) ? BsdfValue{} : BsdfValue{v.f_cos * shadowing(to_next), v.pdf_w};
-        return v;
+            return evaluate_bent(to_previous, to_next);
+        return std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
     }
     std::optional<BsdfSample> sample(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
         if (has_relief()) [[unlikely]]
@@ -49,12 +51,9 @@ struct Bsdf {
         return std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
     }
     DeltaValue evaluate_delta(glm::vec3 to_previous, Scatter scatter) const {
-        DeltaValue v = std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
-        if (has_relief())
-            v = is_cut(to_previous, v.to_next)
-                    ? DeltaValue{}
-                    : DeltaValue{v.to_next, v.value * shadowing(v.to_next), v.probability};
-        return v;
+        if (has_relief()) [[unlikely]]
+            return evaluate_delta_bent(to_previous, scatter);
+        return std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
     }
     float roughness() const {
         return std::visit([](const auto& b) { return b.roughness(); }, kind);
@@ -66,6 +65,8 @@ struct Bsdf {
     /// Returns the approximate directional albedo, at least 0.01 per channel so that radiance can be divided by
     /// it.
     Rgb albedo(glm::vec3 to_previous) const {
+        if (is_turned(to_previous)) [[unlikely]]
+            to_previous = half_turn(to_previous);
         return glm::max(std::visit([&](const auto& b) { return b.albedo(to_previous); }, kind), Rgb(0.01f));
     }
 
@@ -80,8 +81,17 @@ private:
         return to_previous.z * glm::dot(interpolated_normal, to_previous) <= 0 ||
                to_next.z * glm::dot(interpolated_normal, to_next) <= 0;
     }
+    /// Returns whether directions must be turned by half_turn(), instead of the relief.
+    bool is_turned(glm::vec3 to_previous) const {
+        return turns_relief && has_relief() && to_previous.z * glm::dot(interpolated_normal, to_previous) < 0;
+    }
+    glm::vec3 half_turn(glm::vec3 v) const {
+        return 2 * glm::dot(interpolated_normal, v) * interpolated_normal - v;
+    }
     float shadowing(glm::vec3 to_next) const;
+    BsdfValue evaluate_bent(glm::vec3 to_previous, glm::vec3 to_next) const;
     std::optional<BsdfSample> sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const;
+    DeltaValue evaluate_delta_bent(glm::vec3 to_previous, Scatter scatter) const;
 };
 
 /// Returns the kind of a BSDF as named in scene files, such as "diffuse" or "roughconductor".
@@ -89,6 +99,6 @@ std::string_view kind_name(const Bsdf& bsdf);
 
 // Every path vertex holds a Bsdf, so it stays small and trivially copyable.
 static_assert(std::is_trivially_copyable_v<Bsdf>);
-static_assert(sizeof(Bsdf) <= sizeof(std::variant<Plastic>) + 16);
+static_assert(sizeof(Bsdf) <= sizeof(std::variant<Plastic>) + 24);
 
 } // namespace tessera

@@ -144,6 +144,10 @@ struct Relief {
     Texture map;
     float scale = 1;                     ///< factor on the height of a bump map
     bool use_shadowing_function = false; ///< applies the shadowing of [Estevez 2019]
+    /// The relief on the back of a two-sided material: the front's mirrored in the surface, as from Mitsuba's
+    /// `twosided` around the relief; or the front's itself, seen from inside.
+    bool is_mirrored_behind = false;
+    bool turns_to_viewer = false; ///< Bsdf::turns_relief
 };
 
 /// The material of a surface, with its textures.

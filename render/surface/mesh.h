@@ -1,10 +1,12 @@
 #pragma once
 
 #include "recon/image.h"
+#include "render/surface/quadric.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,12 +82,13 @@ glm::vec3 front_normal(const Mesh& mesh, glm::uvec3 triangle);
 /// Returns the surface point at barycentric coordinates (weights of the second and third vertex).
 SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, glm::vec2 barycentric);
 
-/// A mesh with its material and, if it emits light, its area light.
+/// A mesh or a quadric with its material and, if it emits light, its area light.
 struct Shape {
-    std::string name; ///< id in the file, or name of the plugin
-    Mesh mesh;
+    std::string name;    ///< id in the file, or name of the plugin
+    Mesh mesh;           ///< empty if there is a quadric
     int material = 0;    ///< index into SceneDescription::materials
     int area_light = -1; ///< index into SceneDescription::area_lights; -1: no emission
+    std::optional<Quadric> quadric{};
 };
 
 /// Shapes in local space, stored once for all instances.

@@ -77,12 +77,38 @@ float Bsdf::shadowing(glm::vec3 to_next) const {
     return 2 / (1 + std::sqrt(1 + terminator * tan2)); // [Estevez 2019, 12.3]
 }
 
+BsdfValue Bsdf::evaluate_bent(glm::vec3 to_previous, glm::vec3 to_next) const {
+    if (is_turned(to_previous)) {
+        to_previous = half_turn(to_previous);
+        to_next = half_turn(to_next);
+    }
+    if (is_cut(to_previous, to_next))
+        return {};
+    const BsdfValue v = std::visit([&](const auto& b) { return b.evaluate(to_previous, to_next); }, kind);
+    return {v.f_cos * shadowing(to_next), v.pdf_w};
+}
+
 std::optional<BsdfSample> Bsdf::sample_bent(glm::vec3 to_previous, float lobe, glm::vec2 u) const {
+    const bool turned = is_turned(to_previous);
+    if (turned)
+        to_previous = half_turn(to_previous);
     auto s = std::visit([&](const auto& b) { return b.sample(to_previous, lobe, u); }, kind);
     if (!s || is_cut(to_previous, s->to_next))
         return {};
     s->f_cos *= shadowing(s->to_next);
+    if (turned)
+        s->to_next = half_turn(s->to_next);
     return s;
+}
+
+DeltaValue Bsdf::evaluate_delta_bent(glm::vec3 to_previous, Scatter scatter) const {
+    const bool turned = is_turned(to_previous);
+    if (turned)
+        to_previous = half_turn(to_previous);
+    const DeltaValue v = std::visit([&](const auto& b) { return b.evaluate_delta(to_previous, scatter); }, kind);
+    if (is_cut(to_previous, v.to_next))
+        return {};
+    return {turned ? half_turn(v.to_next) : v.to_next, v.value * shadowing(v.to_next), v.probability};
 }
 
 } // namespace tessera

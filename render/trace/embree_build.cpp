@@ -104,16 +104,18 @@ float chance(std::uint32_t ray_number, unsigned instance, unsigned shape, unsign
     return chance_of(Random::mix(key ^ (std::uint64_t{shape} << 32) ^ triangle));
 }
 
-/// Returns the random number for hit i of the arguments of an Embree filter.
-float chance(const RTCFilterFunctionNArguments& a, unsigned i, glm::vec2 barycentric) {
-    const unsigned shape = RTCHitN_geomID(a.hit, a.N, i), triangle = RTCHitN_primID(a.hit, a.N, i);
-    const unsigned instance = RTCHitN_instID(a.hit, a.N, i, 0);
+} // namespace
+
+float chance_of_hit(RTCRayN* rays, unsigned count, unsigned i, unsigned instance, unsigned shape,
+                    unsigned triangle, glm::vec2 at) {
     if (instance != RTC_INVALID_GEOMETRY_ID)
-        return chance(RTCRayN_id(a.ray, a.N, i), instance, shape, triangle);
-    const glm::vec3 direction(RTCRayN_dir_x(a.ray, a.N, i), RTCRayN_dir_y(a.ray, a.N, i),
-                              RTCRayN_dir_z(a.ray, a.N, i));
-    return chance(direction, barycentric, shape, triangle);
+        return chance(RTCRayN_id(rays, count, i), instance, shape, triangle);
+    const glm::vec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
+                              RTCRayN_dir_z(rays, count, i));
+    return chance(direction, at, shape, triangle);
 }
+
+namespace {
 
 /// Embree filter of masks: rejects a hit with the probability 1 - opacity.
 void filter(const RTCFilterFunctionNArguments* arguments) {
@@ -124,8 +126,10 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
             continue;
         const glm::vec2 barycentric(RTCHitN_u(arguments->hit, count, i), RTCHitN_v(arguments->hit, count, i));
         const unsigned triangle = RTCHitN_primID(arguments->hit, count, i);
+        const unsigned instance = RTCHitN_instID(arguments->hit, count, i, 0);
+        const unsigned shape = RTCHitN_geomID(arguments->hit, count, i);
         const float opacity = luminance(mask.opacity->evaluate(surface_point(*mask.mesh, triangle, barycentric)));
-        if (chance(*arguments, i, barycentric) >= opacity)
+        if (chance_of_hit(arguments->ray, count, i, instance, shape, triangle, barycentric) >= opacity)
             arguments->valid[i] = 0;
     }
 }
@@ -164,18 +168,22 @@ void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, Mask* mask, unsi
 // Upper bounds on Embree's memory during a build, which is more than the finished BVH holds; from measurements.
 constexpr std::uint64_t build_bytes_a_triangle = 136;
 constexpr std::uint64_t build_bytes_an_instance = 512;
+constexpr std::uint64_t build_bytes_a_quadric = 2048;
 
 /// Throws OutOfMemory if there is too little memory for the build.
 void ask_for_build(const std::vector<Shape>& shapes, const std::deque<ShapeGroup>& groups, std::size_t instances) {
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0, quadrics = 0;
     const auto add = [&](const std::vector<Shape>& added) {
-        for (const Shape& shape : added)
+        for (const Shape& shape : added) {
             triangles += shape.mesh.triangles.size();
+            quadrics += shape.quadric.has_value();
+        }
     };
     add(shapes);
     for (const ShapeGroup& group : groups)
         add(group.shapes);
-    require_memory(triangles * build_bytes_a_triangle + instances * build_bytes_an_instance,
+    require_memory(triangles * build_bytes_a_triangle + quadrics * build_bytes_a_quadric +
+                       instances * build_bytes_an_instance,
                    std::to_string(triangles) + " triangles in a BVH");
 }
 
@@ -186,9 +194,14 @@ float largest_component(glm::vec3 v) {
 /// Returns the largest magnitude of each coordinate.
 glm::vec3 extents(const std::vector<Shape>& shapes) {
     glm::vec3 largest(0);
-    for (const Shape& shape : shapes)
+    for (const Shape& shape : shapes) {
         for (glm::vec3 p : shape.mesh.positions)
             largest = glm::max(largest, glm::abs(p));
+        if (shape.quadric) {
+            const Quadric::Bounds box = shape.quadric->bounds();
+            largest = glm::max(largest, glm::max(glm::abs(box.low), glm::abs(box.high)));
+        }
+    }
     return largest;
 }
 
@@ -226,10 +239,16 @@ RTCScene Intersector::Impl::scene_of(const std::vector<Shape>& shapes,
     RTCScene made = rtcNewScene(device);
     rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-        Mask* mask = nullptr;
-        if (first + i < opacities.size() && opacities[first + i])
-            mask = masks.emplace_back(new Mask{&shapes[i].mesh, opacities[first + i]}).get();
-        attach(device, made, shapes[i].mesh, mask, static_cast<unsigned>(i));
+        const Texture* opacity = first + i < opacities.size() ? opacities[first + i] : nullptr;
+        const auto id = static_cast<unsigned>(i);
+        if (shapes[i].quadric) {
+            quadric_of.resize(std::max(quadric_of.size(), first + i + 1));
+            quadric_of[first + i] = &*shapes[i].quadric;
+            attach(device, made, *quadrics.emplace_back(new QuadricGeometry{&*shapes[i].quadric, opacity}), id);
+            continue;
+        }
+        Mask* mask = opacity ? masks.emplace_back(new Mask{&shapes[i].mesh, opacity}).get() : nullptr;
+        attach(device, made, shapes[i].mesh, mask, id);
     }
     return made;
 }

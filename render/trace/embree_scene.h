@@ -43,11 +43,26 @@ private:
     std::exception_ptr first_;
 };
 
-/// User data of a geometry that is not opaque.
+/// User data of a mesh that is not opaque.
 struct Mask {
     const Mesh* mesh;
     const Texture* opacity;
 };
+
+/// User data of a quadric.
+struct QuadricGeometry {
+    const Quadric* quadric;
+    const Texture* opacity; ///< null: opaque
+};
+
+/// Adds a quadric to a scene as user geometry. A hit's normal is the point in the quadric's own space.
+void attach(RTCDevice device, RTCScene scene, QuadricGeometry& quadric, unsigned id);
+
+/// Returns a random number in [0, 1) for hit i of a packet, by which surfaces that are not opaque reject hits.
+/// @param instance  RTC_INVALID_GEOMETRY_ID: none
+/// @param at        coordinates of the hit on the surface
+float chance_of_hit(RTCRayN* rays, unsigned count, unsigned i, unsigned instance, unsigned shape,
+                    unsigned triangle, glm::vec2 at);
 
 struct Intersector::Impl {
     std::atomic<std::ptrdiff_t> bytes = 0; // memory that Embree holds; written by Embree's threads
@@ -55,6 +70,8 @@ struct Intersector::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<Mask>> masks; // Embree keeps pointers to them
+    std::vector<std::unique_ptr<QuadricGeometry>> quadrics;
+    std::vector<const Quadric*> quadric_of; // by Hit::shape, null: a mesh; empty: there are no quadrics
     std::vector<RTCScene> groups;
     unsigned first_instance = 0;            // id of the first instance; smaller ids are shapes
     std::vector<GroupPlacement> placements; // by instance
@@ -70,6 +87,10 @@ struct Intersector::Impl {
     }
 
     bool has_instances() const { return !placements.empty(); }
+    /// Returns the quadric of a Hit::shape; null: it is a mesh.
+    const Quadric* quadric_at(std::uint32_t shape) const {
+        return shape < quadric_of.size() ? quadric_of[shape] : nullptr;
+    }
     void start();
     RTCScene scene_of(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities,
                       std::size_t first);

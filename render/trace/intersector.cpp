@@ -119,14 +119,21 @@ bool Intersector::closest(const Ray& ray, Hit& hit) const {
     hit.triangle = query.hit.primID;
     hit.barycentric = {query.hit.u, query.hit.v};
     hit.distance = query.ray.tfar;
-    hit.geometric_normal = unit({query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
     hit.placement = nullptr;
     if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
         const std::size_t instance = query.hit.instID[0] - impl_->first_instance;
         hit.shape += impl_->first_shape[instance];
         hit.placement = &impl_->placements[instance];
-        hit.geometric_normal = unit(hit.placement->of_normals * hit.geometric_normal);
     }
+    const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    if (const Quadric* quadric = impl_->quadric_at(hit.shape)) [[unlikely]] {
+        hit.local = normal; // see attach()
+        hit.geometric_normal = quadric->normal(hit.local);
+    } else {
+        hit.geometric_normal = unit(normal);
+    }
+    if (hit.placement)
+        hit.geometric_normal = unit(hit.placement->of_normals * hit.geometric_normal);
     return true;
 }
 

@@ -60,10 +60,12 @@ struct GroupPlacement {
 struct Hit {
     std::uint32_t shape; ///< index: first the scene's own shapes, then those of each group
     std::uint32_t triangle;
-    glm::vec2 barycentric;      ///< weights of the second and third corner
-    float distance;             ///< from the ray's origin, in scene units
-    glm::vec3 geometric_normal; ///< unit; points to the side that sees the corners counter-clockwise in mesh space
-    const GroupPlacement* placement; ///< of the instance that was hit; null: the mesh is in world space
+    glm::vec2 barycentric;           ///< weights of the second and third corner
+    float distance;                  ///< from the ray's origin, in scene units
+    glm::vec3 geometric_normal;      ///< unit; points to the side that sees the corners counter-clockwise in mesh
+                                     ///< space, or to the front of a quadric
+    const GroupPlacement* placement; ///< of the instance that was hit; null: the shape is in world space
+    glm::vec3 local; ///< point of a quadric in its own space; `triangle` and `barycentric` are then unused
 };
 
 /// A segment that is tested for occlusion, without its end points.
@@ -78,8 +80,8 @@ struct Segment {
 class Intersector {
 public:
     Intersector();
-    /// Builds the BVHs. Keeps pointers to meshes and textures. Throws std::runtime_error with Embree's message, or
-    /// OutOfMemory if the BVH does not fit.
+    /// Builds the BVHs. Keeps pointers to meshes, quadrics and textures. Throws std::runtime_error with Embree's
+    /// message, or OutOfMemory if the BVH does not fit.
     /// @param opacities  by Hit::shape: the opacity (luminance) of the shape; null: opaque. Empty: all shapes are
     ///                   opaque.
     explicit Intersector(const std::vector<Shape>& shapes, const std::vector<const Texture*>& opacities = {},
@@ -88,7 +90,7 @@ public:
     Intersector(Intersector&&) noexcept;
     Intersector& operator=(Intersector&&) noexcept;
 
-    /// Finds the first triangle on the ray and stores it in `hit`. Returns false, and leaves `hit` unchanged, if
+    /// Finds the first surface on the ray and stores it in `hit`. Returns false, and leaves `hit` unchanged, if
     /// there is none or the ray is not finite.
     bool closest(const Ray& ray, Hit& hit) const;
 

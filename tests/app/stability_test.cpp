@@ -152,8 +152,7 @@ TEST(StabilityScenes, LoadWithoutNotesAndStateWhatFails) {
     ThreadPool pool(1);
     for (const StabilityScene& scene : stability_scenes(files)) {
         for (const LoadNote& note : open_scene(scene.source, pool, nullptr).notes)
-            EXPECT_THAT(note.text, HasSubstr("is approximated by"))
-                << scene.source.file << ": other notes than of round shapes";
+            ADD_FAILURE() << scene.source.file << ": " << note.text;
         EXPECT_GT(scene.fails.size(), 20u) << scene.source.file;
     }
 }

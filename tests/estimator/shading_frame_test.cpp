@@ -38,6 +38,26 @@ TEST(ShadingFrame, FollowsUOfAnisotropicSurfaces) {
     }
 }
 
+/// As in Mitsuba, `twosided` around a relief mirrors it in the surface: tangential slopes are equal from both
+/// sides. A relief around `twosided` is seen from inside.
+TEST(ShadingFrame, ReliefFromBehindDependsOnTheNesting) {
+    const glm::vec3 bent = glm::normalize(glm::vec3(0.3f, -0.2f, 1));
+    Relief relief;
+    relief.kind = Relief::Kind::normal_map;
+    relief.map = Texture(0.5f * bent + 0.5f);
+    for (const bool is_mirrored : {false, true}) {
+        relief.is_mirrored_behind = is_mirrored;
+        Material m{"relief", DiffuseMaterial{{Rgb(0.5f)}}, true};
+        m.relief = relief;
+        SceneBuilder b;
+        b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, b.material(m));
+        const auto scene = b.build();
+        EXPECT_LT(glm::distance(vertex_seen(*scene, true).frame.normal, bent), 1e-5f);
+        const glm::vec3 behind = is_mirrored ? glm::vec3(bent.x, bent.y, -bent.z) : -bent;
+        EXPECT_LT(glm::distance(vertex_seen(*scene, false).frame.normal, behind), 1e-5f);
+    }
+}
+
 TEST(ShadingFrame, IsOrthonormalWithoutAUsableU) {
     const glm::vec3 normal = glm::normalize(glm::vec3(0.2f, 0.3f, 1));
     for (const glm::vec3 along : {normal, glm::vec3(0), glm::vec3(NAN)}) {

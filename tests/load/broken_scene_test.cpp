@@ -147,7 +147,9 @@ constexpr Broken broken_scenes[] = {
     {"huge sphere",
      "<shape type='sphere'><float name='radius' value='1e38'/><transform name='to_world'><scale value='10'/>"
      "</transform></shape>",
-     "2:1: the position of vertex "},
+     "2:1: the transform of the shape must be finite and have an inverse"},
+    {"flat cylinder", "<shape type='cylinder'><transform name='to_world'><scale x='0'/></transform></shape>",
+     "2:1: the transform of the shape must be finite and have an inverse"},
     {"huge cube",
      "<shape type='cube'><transform name='to_world'><matrix value='3e38 3e38 0 0  0 1 0 0  0 0 1 0  0 0 0 1'/>"
      "</transform></shape>",

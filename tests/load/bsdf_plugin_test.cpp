@@ -52,6 +52,9 @@ TEST(BsdfPlugins, BumpAndNormalMaps) {
     const Read all = read(around("twosided", around("mask", around("bumpmap", check + diffuse))));
     EXPECT_TRUE(all.material.opacity && all.material.relief && all.material.two_sided);
     EXPECT_EQ(all.notes, "");
+    // Their order decides how the relief looks from behind.
+    EXPECT_TRUE(all.material.relief->is_mirrored_behind);
+    EXPECT_FALSE(normals.material.relief->is_mirrored_behind);
 }
 
 TEST(BsdfPlugins, AHeightMapOfGamma1IsLinear) {

@@ -313,6 +313,16 @@ TEST(MitsubaXml, ReportsEverythingThatIsNotUsed) {
     EXPECT_EQ(magenta.reflectance.evaluate({}), Rgb(1, 0, 1));
 }
 
+TEST(MitsubaXml, TheDirectIntegratorMeansTwoEdges) {
+    const LoadedScene loaded =
+        parse_mitsuba_xml("<scene version='3.0.0'><integrator type='direct'>"
+                          "<integer name='emitter_samples' value='4'/></integrator></scene>",
+                          "s.xml");
+    EXPECT_EQ(loaded.description.max_depth, 2);
+    for (const LoadNote& note : loaded.notes)
+        EXPECT_EQ(note.text.find("integrator"), std::string::npos) << note.text;
+}
+
 TEST(MitsubaXml, UsesOnlyTheFirstOfDuplicateElements) {
     const auto loaded =
         parse("<integrator type='path'><integer name='max_depth' value='3'/></integrator>\n"

@@ -1,5 +1,6 @@
 // Smooth normals that keep sharp edges.
 #include "render/mesh/meshes.h"
+#include "tests/support/scene_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +86,7 @@ TEST(Smoothing, KeepsTheEdgesOfACubeAndSmoothsASphere) {
     smooth_normals(cube, 91);
     for (std::size_t i = 0; i < cube.positions.size(); ++i)
         EXPECT_GT(glm::dot(cube.normals[i], glm::normalize(cube.positions[i])), 0.9f);
-    Mesh sphere = make_sphere();
+    Mesh sphere = test::sphere_mesh({0, 0, 0}, 1, 96);
     smooth_normals(sphere, 30);
     float smallest_cosine = 1; // excludes triangles without area at the poles
     for (std::size_t i = 0; i < sphere.triangles.size(); ++i)

@@ -25,6 +25,15 @@ float at(const Texture& texture, float u, float v) {
     return texture.evaluate({{u, v}}).g;
 }
 
+/// A number from a checkerboard has the value of Mitsuba's eval(). The eval_1() of Mitsuba 3.9 exchanges the two.
+TEST(Texture, CheckerboardsAsNumbersFollowEval) {
+    Texture texture;
+    texture.kind = CheckerboardTexture{Rgb(0.25f), Rgb(0.75f)};
+    EXPECT_FLOAT_EQ(texture.scalar(glm::vec2(0.2f, 0.2f)), 0.25f);
+    EXPECT_FLOAT_EQ(texture.scalar(glm::vec2(0.2f, 0.7f)), 0.75f);
+    EXPECT_FLOAT_EQ(texture.scalar(glm::vec2(0.7f, 0.7f)), 0.25f);
+}
+
 TEST(Texture, GradientIsTheDerivative) {
     Bitmap bitmap;
     bitmap.width = 5;

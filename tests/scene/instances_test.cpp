@@ -106,8 +106,8 @@ TEST(Instances, TransformTheirNormals) {
     // shape after it.
     const glm::mat4 uniform =
         glm::scale(glm::rotate(glm::mat4(1), 0.7f, glm::normalize(glm::vec3(1, 2, 3))), glm::vec3(0.8f));
-    expect_twins(Twins(make_sphere(), uniform, false), 2e-3f);
-    const Twins uneven(make_sphere(), skewed(true), false);
+    expect_twins(Twins(sphere_mesh({0, 0, 0}, 1, 96), uniform, false), 2e-3f);
+    const Twins uneven(sphere_mesh({0, 0, 0}, 1, 96), skewed(true), false);
     int outside = 0, hits = 0;
     for (int i = 0; i < 500; ++i) {
         Hit hit;

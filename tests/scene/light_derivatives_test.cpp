@@ -53,6 +53,27 @@ TEST(LightDerivatives, OfTrianglesEqualFiniteDifferences) {
     }
 }
 
+TEST(LightDerivatives, OfQuadricsEqualFiniteDifferences) {
+    using Kind = Quadric::Kind;
+    glm::mat4 skewed(1, 0.2f, 0, 0, 0.3f, 0.7f, 0.1f, 0, 0, -0.2f, 0.5f, 0, 1, 2, 3, 1), ball(0.8f);
+    ball[3] = {1, 2, 3, 1};
+    for (const Quadric& quadric : {Quadric(Kind::sphere, ball, false), Quadric(Kind::sphere, skewed, false),
+                                   Quadric(Kind::disk, skewed, false), Quadric(Kind::cylinder, skewed, false)}) {
+        const LightQuadric light{&quadric, Rgb(1), nullptr, 1, 0};
+        const glm::vec3 receiver(0.2f, 0.5f, 1.2f);
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const glm::vec2 u = glm::vec2(0.05f) + 0.85f * number(i);
+            LightPoint p;
+            if (!light.sample(receiver, u, p))
+                continue;
+            expect_derivatives(light.differentiate(receiver, u), u, [&](glm::vec2 at) {
+                light.sample(receiver, at, p);
+                return p.position;
+            });
+        }
+    }
+}
+
 /// Returns a rotated map of few cells with a sun. The number that selects one of both is rescaled and reused.
 EnvironmentDescription sky_with_sun() {
     SceneBuilder b;
@@ -86,27 +107,34 @@ TEST(LightDerivatives, SpanTheInverseOfThePdf) {
     b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.diffuse(Rgb(0.5f)));
     b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, b.diffuse(Rgb(0)), b.light(Rgb(4, 2, 1)));
     b.quad({-1, 3, -1}, {1, 0, 0}, {0, 0, 1}, b.diffuse(Rgb(0)), b.light(Rgb(0.1f)));
+    b.ball({-1, 1, 0.5f}, 0.4f, b.diffuse(Rgb(0)), b.light(Rgb(2)));
     b.point({{0, 1, 0}, Rgb(3)});
     b.environment({Rgb(1), Rgb(0.5f), Rgb(2), Rgb(0.3f)}, 2);
     b.camera({0, 1, 5}, {0, 1, 0}, 40);
     const auto scene = b.build();
-    std::array<int, 4> count{};
+    std::array<int, 5> count{};
     for (std::uint32_t i = 0; i < 2000; ++i) {
         const Random random(5, i, 0);
         LightPoint p;
         if (!scene->lights().sample({0, 0, 0}, random, 1, p))
             continue;
         ++count[static_cast<std::size_t>(p.kind)];
-        const LightDerivatives d = scene->lights().differentiate(random, 1);
+        const LightDerivatives d = scene->lights().differentiate({0, 0, 0}, random, 1);
         const float area = glm::length(glm::cross(d.position[0], d.position[1]));
         if (p.kind == LightPoint::Kind::point) {
             EXPECT_EQ(area, 0);
             EXPECT_FLOAT_EQ(d.chance, p.pdf);
+        } else if (p.kind == LightPoint::Kind::ball) {
+            const glm::vec3 to = p.position;
+            const float distance2 = glm::dot(to, to);
+            const float angle = area * std::abs(glm::dot(to, p.normal)) / (distance2 * std::sqrt(distance2));
+            EXPECT_NEAR(angle / d.chance * p.seen_from({0, 0, 0})->pdf_w, 1, 2e-3f);
         } else {
             EXPECT_NEAR(area / d.chance * p.pdf, 1, 1e-3f);
         }
     }
     EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::surface)], 100);
+    EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::ball)], 50);
     EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::point)], 20);
     EXPECT_GT(count[static_cast<std::size_t>(LightPoint::Kind::environment)], 100);
 }

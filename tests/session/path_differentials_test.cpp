@@ -183,6 +183,15 @@ TEST(PathDifferentials, MatchReplayedPaths) {
         r.sphere({0.5f, -0.5f, 0.2f}, 0.4f, r.plastic(Rgb(0.3f), 0.1f));
         expect_accurate("metal, Phong, plastic", r.build());
     }
+    {
+        Room r;
+        r.ball({-0.4f, -0.5f, 0}, 0.4f, r.mirror());
+        r.ball({0.5f, -0.5f, 0.2f}, 0.4f, r.plastic(Rgb(0.3f), 0.1f));
+        glm::mat4 tube(0.3f);
+        tube[3] = {-0.5f, 0.3f, -0.4f, 1};
+        r.quadric(Quadric(Quadric::Kind::cylinder, tube, false), r.diffuse(white));
+        expect_accurate("quadrics", r.build());
+    }
 }
 
 TEST(PathDifferentials, ReducedSumsKeepMostOfTheirArea) {

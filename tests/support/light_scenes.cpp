@@ -132,6 +132,7 @@ std::shared_ptr<const Scene> relief() {
             waves.floats.emplace_back(0.02f * float((x * 3 + y * 5) % 4));
     Relief bump;
     bump.map.kind = BitmapTexture{std::make_shared<const Bitmap>(waves)};
+    bump.turns_to_viewer = true;
     Material wall{"wall", DiffuseMaterial{{white}}, true};
     wall.relief = bump;
     ConductorMaterial metal;
@@ -143,18 +144,63 @@ std::shared_ptr<const Scene> relief() {
     return r.build();
 }
 
+/// Returns the matrix that scales, turns and moves a unit shape.
+glm::mat4 placed(glm::vec3 to, float angle, glm::vec3 size) {
+    return glm::scale(glm::rotate(glm::translate(glm::mat4(1), to), angle, glm::vec3(0.6f, 0.8f, 0)), size);
+}
+
 /// Two instances of a group of a glossy sphere and a leaf, with rotation, uneven scale and mirroring.
 std::shared_ptr<const Scene> instances() {
     Room r;
     r.sphere({0, 0, 0}, 0.4f, r.plastic(red, 0.25f), 12);
     r.quad({-0.5f, -0.3f, 0.45f}, {1, 0, 0}, {0, 0.5f, 0}, r.material({"leaf", DiffuseMaterial{{white}}, true}));
     const int group = r.group_of_last(2);
-    const auto placed = [](glm::vec3 to, float angle, glm::vec3 size) {
-        const glm::mat4 turned = glm::rotate(glm::translate(glm::mat4(1), to), angle, glm::vec3(0.6f, 0.8f, 0));
-        return glm::scale(turned, size);
-    };
     r.instance(group, placed({-0.4f, -0.5f, 0.1f}, 0.7f, {1, 0.6f, 0.8f}));
     r.instance(group, placed({0.45f, -0.3f, -0.3f}, -0.5f, {-0.7f, 1.3f, 0.9f}));
+    return r.build();
+}
+
+/// Emitting spheres, outside and inside, an ellipsoid, a cylinder and a disk, above a glossy floor.
+std::shared_ptr<const Scene> round_lamps() {
+    using Kind = Quadric::Kind;
+    SceneBuilder r;
+    const int w = r.diffuse(white), black = r.diffuse(Rgb(0));
+    r.room({r.conductor(0.2f), w, w, r.diffuse(red), r.diffuse(green)});
+    Texture pattern;
+    pattern.kind = CheckerboardTexture{Rgb(6, 2, 1), Rgb(1, 3, 5)};
+    pattern.to_uv = glm::mat3(3.0f);
+    r.ball({-0.5f, 0.3f, 0.1f}, 0.3f, w, r.light(pattern));
+    r.ball({0.4f, -0.6f, 0.3f}, 0.25f, black, r.light(Rgb(3, 2, 4)));
+    r.quadric(Quadric(Kind::sphere, placed({0.5f, 0.5f, -0.3f}, 0.6f, {0.2f, 0.4f, 0.25f}), false), black,
+              r.light(Rgb(4, 3, 2)));
+    r.quadric(Quadric(Kind::cylinder, placed({-0.6f, -0.8f, -0.3f}, 0.9f, {0.2f, 0.2f, 0.8f}), false), w,
+              r.light(Rgb(2)));
+    r.quadric(Quadric(Kind::disk, placed({0, 0.9f, -0.2f}, 1.8f, {0.4f, 0.2f, 1}), false), black, r.light(Rgb(5)));
+    r.quadric(Quadric(Kind::sphere, placed({0, 0, 0}, 0, glm::vec3(6)), true), black, r.light(Rgb(0.3f)));
+    r.camera({0, 0, 2.6f}, {0, 0, 0}, 50);
+    return r.build();
+}
+
+/// Spheres of glass and metal, a textured ellipsoid with holes, a brushed cylinder, and instances of a group.
+std::shared_ptr<const Scene> quadrics() {
+    using Kind = Quadric::Kind;
+    Room r;
+    r.ball({-0.5f, -0.6f, 0.3f}, 0.35f, r.glass());
+    r.ball({0.4f, 0.4f, -0.4f}, 0.3f, r.plastic(red, 0.25f));
+    DiffuseMaterial checker;
+    checker.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.1f, 0), Rgb(0, 0.2f, 0.8f)};
+    checker.reflectance.to_uv = glm::mat3(7.0f);
+    Material holes{"holes", checker, true};
+    holes.opacity = checker.reflectance;
+    r.quadric(Quadric(Kind::sphere, placed({0.4f, -0.5f, 0.1f}, 0.6f, {0.3f, 0.45f, 0.25f}), false),
+              r.material(holes));
+    r.quadric(Quadric(Kind::cylinder, placed({-0.6f, 0.2f, -0.4f}, 0.9f, {0.2f, 0.2f, 0.8f}), false),
+              r.brushed(0.1f, 0.4f));
+    r.ball({0, 0, 0}, 0.25f, r.conductor(0.15f));
+    r.quadric(Quadric(Kind::disk, placed({0, 0.3f, 0}, 1.5f, glm::vec3(0.3f)), false), r.w);
+    const int group = r.group_of_last(2);
+    r.instance(group, placed({0, -0.6f, -0.5f}, 0.7f, {1, 0.6f, 0.8f}));
+    r.instance(group, placed({-0.1f, 0.5f, 0.3f}, -0.5f, {-0.7f, 1.3f, 0.9f}));
     return r.build();
 }
 
@@ -179,6 +225,10 @@ std::vector<TestScene> light_scenes() {
         {"lamp_and_sky_in_gloss", environment_patchwork(), 2, 0.35f, 3},
         {"instances", instances(), 4},
         {"instances_half_vectors", instances(), 4, 0.3f},
+        {"round_lamps", round_lamps(), 4},
+        {"round_lamps_half_vectors", round_lamps(), 4, 0.3f},
+        {"quadrics", quadrics(), 6},
+        {"quadrics_half_vectors", quadrics(), 5, 0.3f},
         {"relief", relief(), 4},
         {"relief_half_vectors", relief(), 4, 0.25f},
     };

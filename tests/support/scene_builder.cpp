@@ -127,30 +127,51 @@ void SceneBuilder::quad(glm::vec3 corner, glm::vec3 edge1, glm::vec3 edge2, int 
     description_.shapes.push_back(std::move(shape));
 }
 
-void SceneBuilder::sphere(glm::vec3 center, float radius, int material, int rings) {
-    Shape shape;
-    shape.name = "sphere";
+Mesh sphere_mesh(glm::vec3 center, float radius, int rings) {
+    Mesh mesh;
     const int around = 2 * rings;
     for (int i = 0; i <= rings; ++i)
         for (int j = 0; j <= around; ++j) {
             const float theta = pi * static_cast<float>(i) / static_cast<float>(rings);
             const float phi = 2 * pi * static_cast<float>(j) / static_cast<float>(around);
             const glm::vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
-            shape.mesh.positions.push_back(center + radius * n);
-            shape.mesh.normals.push_back(n);
-            shape.mesh.uvs.emplace_back(static_cast<float>(j) / static_cast<float>(around), 0.0f);
+            mesh.positions.push_back(center + radius * n);
+            mesh.normals.push_back(n);
+            mesh.uvs.emplace_back(static_cast<float>(j) / static_cast<float>(around), 0.0f);
         }
     const auto row = static_cast<unsigned>(around + 1);
     for (unsigned i = 0; i < static_cast<unsigned>(rings); ++i)
         for (unsigned j = 0; j + 1 < row; ++j) {
             const unsigned a = i * row + j;
             if (i > 0)
-                shape.mesh.triangles.push_back({a, a + row, a + 1});
+                mesh.triangles.push_back({a, a + row, a + 1});
             if (i + 1 < static_cast<unsigned>(rings))
-                shape.mesh.triangles.push_back({a + 1, a + row, a + row + 1});
+                mesh.triangles.push_back({a + 1, a + row, a + row + 1});
         }
+    return mesh;
+}
+
+void SceneBuilder::sphere(glm::vec3 center, float radius, int material, int rings) {
+    Shape shape;
+    shape.name = "sphere";
+    shape.mesh = sphere_mesh(center, radius, rings);
     shape.material = material;
     description_.shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::quadric(const Quadric& quadric, int material, int light) {
+    Shape shape;
+    shape.name = "quadric";
+    shape.quadric = quadric;
+    shape.material = material;
+    shape.area_light = light;
+    description_.shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::ball(glm::vec3 center, float radius, int material, int light) {
+    glm::mat4 to_world(radius);
+    to_world[3] = glm::vec4(center, 1);
+    quadric(Quadric(Quadric::Kind::sphere, to_world, false), material, light);
 }
 
 int SceneBuilder::group_of_last(int shapes) {

@@ -37,7 +37,11 @@ public:
 
     /// Adds a parallelogram. Its front faces cross(edge1, edge2). @param light  -1: none
     void quad(glm::vec3 corner, glm::vec3 edge1, glm::vec3 edge2, int material, int light = -1);
+    /// Adds a sphere of triangles with shading normals.
     void sphere(glm::vec3 center, float radius, int material, int rings = 24);
+    void quadric(const Quadric& quadric, int material, int light = -1);
+    /// Adds a sphere without tessellation.
+    void ball(glm::vec3 center, float radius, int material, int light = -1);
     /// Adds the walls of a room [-1, 1]^3 without its front wall (z = 1), facing inward.
     /// @param materials  of floor, ceiling, back, left and right wall
     void room(const std::vector<int>& materials);
@@ -57,6 +61,9 @@ private:
 
     SceneDescription description_;
 };
+
+/// Returns a sphere of triangles with exact normals at the vertices.
+Mesh sphere_mesh(glm::vec3 center, float radius, int rings);
 
 /// Returns the matrix of Mitsuba's `lookat`.
 glm::mat4 look_at(glm::vec3 origin, glm::vec3 target, glm::vec3 up = {0, 1, 0});

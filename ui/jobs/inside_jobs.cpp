@@ -211,7 +211,13 @@ std::vector<glm::vec3> light_positions(const SceneDescription& scene) {
     std::vector<glm::vec3> lamps;
     for (const Shape& shape : scene.shapes) {
         const std::vector<glm::vec3>& p = shape.mesh.positions;
-        if (shape.area_light < 0 || p.empty() || lamps.size() == max_lights)
+        if (shape.area_light < 0 || lamps.size() == max_lights)
+            continue;
+        if (shape.quadric) {
+            const Quadric::Bounds box = shape.quadric->bounds();
+            lamps.push_back((box.low + box.high) * 0.5f);
+        }
+        if (p.empty())
             continue;
         glm::vec3 min = p[0], max = p[0];
         for (glm::vec3 q : p) {

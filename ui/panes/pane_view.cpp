@@ -53,7 +53,7 @@ std::string notice_of(const Showing& showing, const PaneTools& tools) {
     const bool is_done = pane.snapshot && pane.snapshot->generation == pane.generation && !pane.snapshot->coarse();
     if (!is_done || showing.subtrahend >= 0 || !tools.images[showing.pane].is_black())
         return "";
-    if (state.scene->triangle_count() == 0)
+    if (state.scene->triangle_count() + state.scene->quadric_count() == 0)
         return "The scene is empty: nothing in it has a surface.";
     return "The camera sees no light.\n\nHome returns to the camera of the scene file. The buffer Albedo shows "
            "the surfaces without light.";
