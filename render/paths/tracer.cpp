@@ -173,7 +173,7 @@ Ray Tracer::beyond_emitters(Ray ray) const {
     Hit hit;
     Vertex emitter;
     for (int i = 0; i < most && scene.intersector().closest(ray, hit); ++i) {
-        if (scene.record(hit.shape).emitter_pdf_a <= 0)
+        if (scene.record(hit.shape).emitter_pdf <= 0)
             break;
         ++counters.rays[static_cast<std::size_t>(RayKind::camera)];
         make_vertex(scene, hit, ray, emitter);

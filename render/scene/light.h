@@ -206,7 +206,7 @@ public:
     /// Returns the light in a unit direction from which a ray leaves the scene; black without an environment.
     LightPoint environment_toward(glm::vec3 direction) const;
     /// Returns whether any light is an emitting surface.
-    bool has_surfaces() const { return has_triangles_; }
+    bool has_surfaces() const { return has_area_lights_; }
     const Environment* environment() const { return environment_.get(); } ///< null: none
 
     /// Returns whether the ray may meet a light; a conservative test without ray tracing.
