@@ -167,6 +167,7 @@ int render_scene(const RenderOptions& options, const SceneSource& source, const 
     check_outputs({{"-o", options.output}, {"--stats", options.stats}},
                   {{"the scene", source.file}, {"--camera", source.camera}, {"--cameras", options.cameras}});
     check_writable(options.output);
+    check_picture_name(options.output, options.layers);
     if (!options.stats.empty())
         check_writable(options.stats);
     const OpenedScene opened = open_scene(source, pool);
@@ -191,7 +192,6 @@ int render_scene(const RenderOptions& options, const SceneSource& source, const 
 int run_render(const RenderOptions& options, const std::vector<SceneSource>& scenes) {
     check(options.settings);
     check_available(options.layers.norms);
-    check_picture_name(options.output, options.layers);
     if (options.format && options.layers.buffers)
         check_has_rgb(*options.format);
     std::vector<Camera> frames;
