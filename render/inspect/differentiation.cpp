@@ -107,11 +107,19 @@ public:
             return glm::vec3(0);
         // Differences of Frame include the turn of its tangent around the normal.
         const float step = 1e-3f / size;
-        const Frame more(glm::normalize(frame_.normal + step * change)),
+        const Frame here(frame_.normal);
+        Frame more(glm::normalize(frame_.normal + step * change)),
             less(glm::normalize(frame_.normal - step * change));
+        float apart = 2 * step;
+        // Where the normal's z changes its sign, the tangent jumps. The difference is then taken on one side.
+        const auto jumps = [](const Frame& a, const Frame& b) { return glm::dot(a.tangent, b.tangent) < 0.99f; };
+        if (jumps(less, more)) {
+            (jumps(here, more) ? more : less) = here;
+            apart = step;
+        }
         return (glm::cross(less.tangent, more.tangent) + glm::cross(less.bitangent, more.bitangent) +
                 glm::cross(less.normal, more.normal)) /
-               (4 * step);
+               (2 * apart);
     }
 
 private:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
-#include "render/surface/quadric.h"
+#include "render/shapes/quadric.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Quadrics as Embree's user geometry.
-#include "render/surface/quadric.h"
+#include "render/shapes/quadric.h"
 #include "render/surface/texture.h"
 #include "render/trace/embree_scene.h"
 

@@ -24,7 +24,7 @@ import header_names
 
 # Source folders in order of dependence: a file includes only files of its own folder and of earlier ones.
 FOLDERS = """recon recon/solvers recon/guided recon/picture recon/metrics
-    render/io render/settings render/sampling render/surface render/trace render/scene render/mesh render/load render/film render/paths render/estimator
+    render/io render/settings render/sampling render/shapes render/surface render/trace render/scene render/mesh render/load render/film render/paths render/estimator
     render/inspect render/run render/session
     ui/gl ui/state ui/settings ui/inside ui/charts ui/panes ui/jobs ui/panels ui/viewer ui/window
     app/cli app/experiment app/report app/compare app/commands app""".split()

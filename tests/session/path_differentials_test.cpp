@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 #include <gtest/gtest.h>
 
 namespace tessera::test {

@@ -1,11 +1,12 @@
 // Spheres, disks and cylinders: intersections, areas, normals, coordinates and derivatives.
-#include "render/surface/quadric.h"
+#include "render/shapes/quadric.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>

@@ -4,6 +4,7 @@
 #include "render/scene/scene.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 

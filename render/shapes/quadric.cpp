@@ -1,4 +1,4 @@
-#include "render/surface/quadric.h"
+#include "render/shapes/quadric.h"
 
 #include <stdexcept>
 #include <utility>
