@@ -51,6 +51,8 @@ std::string inspect_command(const SceneSource& source, const Render& render, con
         const auto scaled = [&](glm::ivec2 pixels) { return glm::ivec2(glm::round(glm::dvec2(pixels) * scale)); };
         film = scaled(crop.film);
         command += " --crop " + text_of({film, scaled(crop.offset), render.size()});
+    } else if (source.crop) {
+        command += " --crop none";
     }
     if (settings.method != defaults.method)
         command += fmt::format(" -m {}", short_name(settings.method));

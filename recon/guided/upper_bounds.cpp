@@ -36,7 +36,7 @@ Plane standard_errors(const Image<float>& variances, const FeatureKernels& kerne
 Image<float> lit_fractions(const RgbImage& radiance, int radius, const ParallelFor& parallel_for) {
     Image<float> lit(radiance.width(), radiance.height(), Unfilled());
     for_pixels(lit.width(), lit.height(), parallel_for,
-               [&](std::size_t i) { lit.data()[i] = is_black(radiance.data()[i]) ? 0.0f : 1.0f; });
+               [&](std::size_t i) { lit.data()[i] = radiance.data()[i] == Rgb(0) ? 0.0f : 1.0f; });
     Image<float> rows(lit.width(), lit.height(), Unfilled());
     take_wide_means(lit, radius, rows, parallel_for);
     return lit;

@@ -34,7 +34,7 @@ struct Trial {
             found.offset_rays += set.offset_rays;
             found.base_rays += static_cast<double>(2 * path.size());
             shared.emplace_back(set.coefficient(i));
-            own.emplace_back(coefficient(path.radiance(), set.albedo[at]));
+            own.emplace_back(set.weight(i) * coefficient(path.radiance(), set.albedo[at]));
         }
     }
 };

@@ -45,10 +45,14 @@ public:
     /// Moves a hit on the surface by a vector in the plane.
     void move(Hit& hit, glm::vec3 along) const {
         const glm::vec2 by = coordinates(along);
-        if (quadric_)
-            hit.local = quadric_->onto_surface(hit.local + by.x * local_[0] + by.y * local_[1]);
-        else
+        if (!quadric_) {
             hit.barycentric += by;
+            return;
+        }
+        hit.local = quadric_->onto_surface(hit.local + by.x * local_[0] + by.y * local_[1]);
+        hit.geometric_normal = quadric_->normal(hit.local);
+        if (hit.placement)
+            hit.geometric_normal = glm::normalize(hit.placement->of_normals * hit.geometric_normal);
     }
 
     /// Returns the derivatives of a normal by the coordinates, and sets `normal` to it. Its length is arbitrary.

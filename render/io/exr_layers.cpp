@@ -206,10 +206,14 @@ std::vector<ExrLayerNames> find_layers(const std::vector<ExrPart>& parts) {
         if (!parts[i].is_deep)
             std::ranges::move(PartLayers(i, parts[i]).take(), std::back_inserter(layers));
     name_layers(parts, layers);
-    const bool has_colour = std::ranges::any_of(layers, is_colour);
-    for (ExrLayerNames& layer : layers)
-        if (layer.content == ExrContent::vector && layer.layer.empty() && !has_colour)
+    // X, Y and Z without a layer name are the picture unless their part has another one without a name.
+    for (ExrLayerNames& layer : layers) {
+        const auto is_picture = [&](const ExrLayerNames& l) {
+            return l.part == layer.part && l.layer.empty() && is_colour(l);
+        };
+        if (layer.content == ExrContent::vector && layer.layer.empty() && std::ranges::none_of(layers, is_picture))
             layer.content = ExrContent::cie_xyz;
+    }
     return layers;
 }
 

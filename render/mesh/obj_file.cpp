@@ -97,7 +97,7 @@ public:
         MeshFile file;
         file.report = report();
         if (const std::size_t uncut = cut_polygons(mesh_, polygons_))
-            file.report.ignored.push_back("the shape of " + counted(uncut, "face") + " whose edges cross");
+            file.report.ignored.push_back("the shape of " + counted(uncut, "face") + " whose edges cross or are too many");
         drop_broken(file);
         file.parts = std::move(parts_);
         file.mesh = std::move(mesh_);

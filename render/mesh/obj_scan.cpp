@@ -103,7 +103,8 @@ void scan_line(ObjScan& scan, std::string_view name, std::string_view rest, std:
 
 /// Returns whether a line continues on the next one: it ends in a backslash and is no comment.
 bool is_continued(std::string_view line) {
-    return line.ends_with('\\') && !line.starts_with('#');
+    const std::size_t first = line.find_first_not_of(white_space);
+    return line.ends_with('\\') && line[first] != '#';
 }
 
 bool next_line(std::istream& stream, std::string& line) {

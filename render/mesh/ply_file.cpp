@@ -86,7 +86,7 @@ public:
         drop_partial_attributes();
         apply_corner_uvs();
         if (const std::size_t uncut = cut_polygons(mesh_, polygons_))
-            report_.ignored.push_back("the shape of " + counted(uncut, "face") + " whose edges cross");
+            report_.ignored.push_back("the shape of " + counted(uncut, "face") + " whose edges cross or are too many");
         if (small_faces_ > 0)
             report_.ignored.push_back(counted(small_faces_, "face") + " with fewer than 3 corners");
         for (std::string& error : repair_mesh(mesh_))

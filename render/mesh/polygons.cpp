@@ -11,7 +11,9 @@ namespace tessera {
 
 namespace {
 
-constexpr std::size_t max_clipped = 10'000; // corners; ear clipping takes quadratic time
+// Limit on the tests of a point against an ear, not tuned. Ear clipping takes quadratic time for most polygons and
+// cubic time for some.
+constexpr std::size_t max_tests = 1'000'000'000;
 
 /// Returns a vector along the normal of a triangle, of twice its area.
 glm::dvec3 area_vector(const Mesh& mesh, glm::uvec3 t) {
@@ -47,7 +49,7 @@ public:
         is_simple_ = is_simple_ && turn(at) >= 0;
         return std::move(triangles_);
     }
-    /// Returns false if edges cross, so that triangles overlap.
+    /// Returns false if edges cross, or if the polygon takes too many tests. Triangles then overlap.
     bool is_simple() const { return is_simple_; }
 
 private:
@@ -57,7 +59,7 @@ private:
     std::size_t find_ear(std::size_t first, std::size_t left) {
         for (const Test test : {Test::free, Test::touched, Test::flat}) {
             std::size_t at = first;
-            for (std::size_t i = 0; i < left; ++i, at = next_[at])
+            for (std::size_t i = 0; i < left && tests_ < max_tests; ++i, at = next_[at])
                 if (is_ear(at, test))
                     return at;
         }
@@ -67,12 +69,12 @@ private:
 
     double turn(std::size_t at) const { return cross(points_[previous_[at]], points_[at], points_[next_[at]]); }
 
-    bool is_ear(std::size_t at, Test test) const {
+    bool is_ear(std::size_t at, Test test) {
         if (test == Test::flat)
             return turn(at) == 0;
         if (!(turn(at) > 0))
             return false;
-        for (std::size_t i = next_[next_[at]]; i != previous_[at]; i = next_[i])
+        for (std::size_t i = next_[next_[at]]; i != previous_[at]; i = next_[i], ++tests_)
             if (turn(i) <= 0 && is_inside(points_[i], at, test == Test::free))
                 return false;
         return true;
@@ -96,6 +98,7 @@ private:
     std::vector<glm::dvec2> points_;
     std::vector<std::size_t> next_, previous_; // corners that are left, as a ring
     std::vector<glm::uvec3> triangles_;
+    std::size_t tests_ = 0;
     bool is_simple_ = true;
 };
 
@@ -131,7 +134,9 @@ bool cut(Mesh& mesh, const PolygonFan& polygon) {
     if (is_fan || is_flat)
         return true;
     const double size = glm::dot(normal, normal);
-    if (!(size > 0) || !std::isfinite(size) || polygon.corners > max_clipped)
+    if (!std::isfinite(size)) // repair_mesh() reports the corner
+        return true;
+    if (!(size > 0))
         return false;
     std::vector<std::uint32_t> corners{triangles[0].x, triangles[0].y};
     for (std::size_t i = 0; i < count; ++i)

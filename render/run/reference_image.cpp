@@ -68,9 +68,9 @@ RgbImage variance_of(const ReferenceImage& reference) {
 void UnreliablePixels::look_at(const GradientImages& images) {
     const RgbImage clamped = clamped_radiance(images);
     for (std::size_t i = 0; i < fireflies_.size(); ++i) {
-        if (!is_black(clamped.data()[i]))
+        if (clamped.data()[i] != Rgb(0))
             fireflies_.data()[i] = 1;
-        if (!is_black(images.radiance().data()[i]) || !is_black(images.very_direct.data()[i]) ||
+        if (images.radiance().data()[i] != Rgb(0) || images.very_direct.data()[i] != Rgb(0) ||
             sees_black(images, i))
             dark_.data()[i] = 0;
     }

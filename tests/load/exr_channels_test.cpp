@@ -195,11 +195,17 @@ TEST_F(ExrChannelNames, OtherPrimariesAreConverted) {
     EXPECT_THAT(refusal(), HasSubstr("chromaticities in its header span no colours"));
 }
 
+TEST_F(ExrChannelNames, XyzIsThePictureBesideNamedLayers) {
+    write(Values{{"X", 0.9505f}, {"Y", 1}, {"Z", 1.089f}, {"primal.R", 5}, {"primal.G", 6}, {"primal.B", 7}});
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel()[c], 1, 1e-3);
+}
+
 /// R, G and B with the primaries of CIE XYZ are X, Y and Z, whatever the white in the header.
 TEST_F(ExrChannelNames, WithPrimariesOfXyzAreXyz) {
     write(Values{{"X", 0.28f}, {"Y", 0.29f}, {"Z", 0.51f}});
     const Rgb expected = pixel();
-    for (const Imath::V2f white : {Imath::V2f(0.31271f, 0.32902f), Imath::V2f(1 / 3.0f, 1 / 3.0f)}) {
+    for (const Imath::V2f& white : {Imath::V2f(0.31271f, 0.32902f), Imath::V2f(1 / 3.0f, 1 / 3.0f)}) {
         const Imf::Chromaticities xyz({1, 0}, {0, 1}, {0, 0}, white);
         write_test_exr(file, {{constant_channels({{"R", 0.28f}, {"G", 0.29f}, {"B", 0.51f}}),
                                "",

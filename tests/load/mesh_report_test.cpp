@@ -100,13 +100,14 @@ TEST(FileReport, PlyValuesThatAreNotFiniteAreZero) {
 }
 
 TEST(FileReport, ObjLinesContinue) {
-    const std::string text = "# C:\\models\\\nv 0 0 0\nv 1 0 \\\n0\nv 1 1 0\r\nv 0 1 0\nf 1 2 \\\r\n3 \\\n4\n";
+    const std::string text =
+        "# C:\\models\\\n  # C:\\scenes\\\nv 0 0 0\nv 1 0 \\\n0\nv 1 1 0\r\nv 0 1 0\nf 1 2 \\\r\n3 \\\n4\n";
     EXPECT_DOUBLE_EQ(area_of(parse_obj(text).mesh), 1);
     try {
         parse_obj(text + "v 1 x 0\n");
         FAIL();
     } catch (const std::runtime_error& error) { // the line of the file, not of the joined text
-        EXPECT_STREQ(error.what(), "line 10: not a list of 3 numbers or more");
+        EXPECT_STREQ(error.what(), "line 11: not a list of 3 numbers or more");
     }
 }
 

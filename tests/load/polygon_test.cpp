@@ -94,7 +94,7 @@ TEST(Polygons, CrossingEdgesAreReported) {
     const MeshFile file = parse_obj(obj_of({{0, 0}, {1, 1}, {1, 0}, {0, 2}}));
     EXPECT_EQ(file.mesh.triangles.size(), 2u);
     ASSERT_EQ(file.report.ignored.size(), 1u);
-    EXPECT_EQ(file.report.ignored[0], "the shape of 1 face whose edges cross");
+    EXPECT_EQ(file.report.ignored[0], "the shape of 1 face whose edges cross or are too many");
 }
 
 TEST(Polygons, PlyFacesThatPrecedeVerticesAreCut) {
