@@ -143,7 +143,7 @@ private:
         y.next_geometry = std::abs(glm::dot(next.geometric_normal, direction)) / glm::dot(d, d);
         if (ends_by_hit(i)) {
             const LightPoint light = next.light_toward(-direction);
-            set_hit(y, light.radiance, light.pdf / y.next_geometry);
+            set_hit(y, light.radiance, light.pdf_w(y.vertex.position, y.next_geometry));
         }
         return y.next_geometry > 0;
     }
@@ -187,6 +187,7 @@ private:
         drawn.to_light = y.to_local(seen->direction);
         const BsdfValue b = y.bsdf.evaluate(y.to_previous, drawn.to_light);
         drawn.pdf_w = seen->pdf_w;
+        drawn.fixed_pdf_w = seen->fixed_pdf_w;
         drawn.pdf_sum = seen->pdf_w + (drawn.light.can_be_hit() ? b.pdf_w : 0);
         drawn.brings = b.f_cos * seen->radiance / drawn.pdf_sum;
         return true;
