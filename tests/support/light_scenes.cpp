@@ -105,6 +105,7 @@ std::shared_ptr<const Scene> masks() {
     const int n = r.material(half);
     r.quad({-0.9f, -0.9f, 0.4f}, {0.9f, 0, 0.2f}, {0, 1.6f, 0}, m);
     r.quad({-0.8f, 0.6f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}, n);
+    r.ball({0.4f, -0.6f, 0}, 0.35f, n);
     return r.build();
 }
 
@@ -181,7 +182,7 @@ std::shared_ptr<const Scene> round_lamps() {
     return r.build();
 }
 
-/// Spheres of glass and metal, a textured ellipsoid with holes, a brushed cylinder, and instances of a group.
+/// Spheres of glass and metal, a textured ellipsoid, a brushed cylinder, and instances of a group.
 std::shared_ptr<const Scene> quadrics() {
     using Kind = Quadric::Kind;
     Room r;
@@ -190,10 +191,8 @@ std::shared_ptr<const Scene> quadrics() {
     DiffuseMaterial checker;
     checker.reflectance.kind = CheckerboardTexture{Rgb(0.9f, 0.1f, 0), Rgb(0, 0.2f, 0.8f)};
     checker.reflectance.to_uv = glm::mat3(7.0f);
-    Material holes{"holes", checker, true};
-    holes.opacity = checker.reflectance;
     r.quadric(Quadric(Kind::sphere, placed({0.4f, -0.5f, 0.1f}, 0.6f, {0.3f, 0.45f, 0.25f}), false),
-              r.material(holes));
+              r.material({"checker", checker, true}));
     r.quadric(Quadric(Kind::cylinder, placed({-0.6f, 0.2f, -0.4f}, 0.9f, {0.2f, 0.2f, 0.8f}), false),
               r.brushed(0.1f, 0.4f));
     r.ball({0, 0, 0}, 0.25f, r.conductor(0.15f));
