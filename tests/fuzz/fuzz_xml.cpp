@@ -9,7 +9,7 @@
 namespace tessera {
 
 /// Replaces the reader of image files. A scene in memory has none, so it is never called.
-LoadedBitmap read_bitmap(const std::filesystem::path&, bool, const std::function<bool()>&) {
+LoadedBitmap read_bitmap(const std::filesystem::path&, bool, const std::function<bool()>&, BitmapChannel) {
     std::abort();
 }
 
