@@ -206,14 +206,12 @@ std::vector<ExrLayerNames> find_layers(const std::vector<ExrPart>& parts) {
         if (!parts[i].is_deep)
             std::ranges::move(PartLayers(i, parts[i]).take(), std::back_inserter(layers));
     name_layers(parts, layers);
-    // X, Y and Z without a layer name are the picture unless their part has another one without a name.
-    for (ExrLayerNames& layer : layers) {
-        const auto is_picture = [&](const ExrLayerNames& l) {
-            return l.part == layer.part && l.layer.empty() && is_colour(l);
-        };
-        if (layer.content == ExrContent::vector && layer.layer.empty() && std::ranges::none_of(layers, is_picture))
+    // X, Y and Z without a layer name are the picture unless another one has no layer name.
+    const bool has_picture =
+        std::ranges::any_of(layers, [](const ExrLayerNames& l) { return l.layer.empty() && is_colour(l); });
+    for (ExrLayerNames& layer : layers)
+        if (layer.content == ExrContent::vector && layer.layer.empty() && !has_picture)
             layer.content = ExrContent::cie_xyz;
-    }
     return layers;
 }
 
