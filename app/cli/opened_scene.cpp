@@ -80,8 +80,11 @@ void choose_view(SceneDescription& scene, const SceneSource& source, std::option
     const glm::ivec2 film = own.crop.empty() ? scene.size : own.crop.film;
     if (camera)
         scene.camera = with_film_of(*camera, own);
-    if (!source.crop)
+    if (!source.crop) {
+        if (const CropWindow& crop = scene.camera.crop; !crop.empty())
+            scene.size = crop.size;
         return;
+    }
     CropWindow crop = *source.crop;
     if (crop.film == glm::ivec2(0))
         crop.film = film;

@@ -12,7 +12,6 @@
 #include "render/io/files.h"
 #include "render/io/json_text.h"
 #include "render/io/text.h"
-#include "render/scene/camera_path.h"
 #include "render/scene/scene.h"
 #include "render/settings/settings_table.h"
 
@@ -42,8 +41,9 @@ Norm default_norm(const RenderSettings& s) {
     return is_expanded(s) ? Norm::weighted : has_gradients(s.method) ? Norm::guided : Norm::none;
 }
 
-ResolvedRender resolve(const RenderOptions& options, const Scene& scene) {
-    ResolvedRender wanted{options.settings, scene.size(options.size), 0, options.layers};
+ResolvedRender resolve(const RenderOptions& options, const Scene& scene, const Camera& camera) {
+    const glm::ivec2 film = camera.crop.empty() ? scene.size() : camera.crop.film;
+    ResolvedRender wanted{options.settings, camera.crop.size_on(options.size.value_or(film)), 0, options.layers};
     wanted.settings.max_depth = options.max_depth.value_or(std::min(scene.max_depth(), most_edges));
     wanted.spp = options.spp.value_or(options.time ? 0 : default_spp);
     if (wanted.layers.norms.empty())
@@ -113,7 +113,7 @@ ExrFile layers_of(Render& render, const ResolvedRender& wanted, bool is_exr, Thr
 /// @param outputs  options with the files of this picture
 int render_picture(const RenderOptions& outputs, const SceneSource& source, const OpenedScene& opened,
                    const Camera& camera, ThreadPool& pool) {
-    const ResolvedRender wanted = resolve(outputs, *opened.scene);
+    const ResolvedRender wanted = resolve(outputs, *opened.scene, camera);
     ask_for_picture(wanted, pool.size());
     Render render(opened.scene, camera, wanted.size, wanted.settings);
     with_memory_for("the render", [&] { render_passes(outputs, wanted, render, pool); });
@@ -180,7 +180,10 @@ int render_scene(const RenderOptions& options, const SceneSource& source, const 
         frame.output = frame_name(options.output, static_cast<int>(i));
         if (!options.stats.empty())
             frame.stats = frame_name(options.stats, static_cast<int>(i));
-        const Camera camera = with_film_of(frames[i], opened.scene->camera());
+        Camera camera = frames[i];
+        if (source.crop) // --crop replaces the windows of cameras, too
+            camera.crop = {};
+        camera = with_film_of(camera, opened.scene->camera());
         result = std::max(result,
                           attempt(goes_on, [&] { return render_picture(frame, source, opened, camera, pool); }));
     }

@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// What the reader of a mesh or image file found.
+/// Findings of the reader of a mesh or image file.
 struct FileReport {
     std::vector<std::string> contents; ///< what is in the mesh: "4 positions", "normals"
     std::vector<std::string> ignored;  ///< what has no effect: "the element 'edge'"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -33,8 +34,8 @@ struct CropWindow {
     bool empty() const { return size.x <= 0; }
     /// Returns whether the window lies within its film.
     bool is_valid() const {
-        return offset.x >= 0 && offset.y >= 0 && size.x >= 1 && size.y >= 1 && offset.x + size.x <= film.x &&
-               offset.y + size.y <= film.y;
+        return offset.x >= 0 && offset.y >= 0 && size.x >= 1 && size.y >= 1 && size.x <= film.x &&
+               size.y <= film.y && offset.x <= film.x - size.x && offset.y <= film.y - size.y;
     }
     /// Returns the size of the window on a film of another size, at least one pixel.
     glm::ivec2 size_on(glm::ivec2 other_film) const;
@@ -129,6 +130,9 @@ private:
 
 /// Reads a camera file. Throws LoadError with file, line and column if a field is malformed, missing or unknown.
 Camera read_camera(const std::filesystem::path& file);
+/// Reads a camera path: a JSON list of cameras, each as in a camera file. Throws LoadError for an empty list, and
+/// as read_camera() does.
+std::vector<Camera> read_camera_path(const std::filesystem::path& file);
 /// Parses the text of a camera file; messages call it `name`.
 Camera parse_camera(const std::string& json, const std::string& name);
 

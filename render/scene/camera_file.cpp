@@ -128,6 +128,14 @@ void read_lens(const JsonText& text, const json& object, Camera& camera) {
         fail(text, "focus_distance", "'focus_distance' must be above 0");
 }
 
+/// Reads a whole number of pixels from 0 to most_edge.
+int pixels(const JsonText& text, const std::string& field, const json& value) {
+    const float read = number(text, field, value);
+    if (!(read >= 0 && read <= most_edge && read == std::floor(read)))
+        fail(text, field, fmt::format("'{}' must have whole numbers from 0 to {}", field, most_edge));
+    return static_cast<int>(read);
+}
+
 CropWindow read_crop(const JsonText& text, const json& object) {
     const auto found = object.find("crop");
     if (found == object.end())
@@ -136,8 +144,7 @@ CropWindow read_crop(const JsonText& text, const json& object) {
         fail(text, "crop", "'crop' must be 6 numbers: size of the film, offset and size of the window");
     std::array<int, 6> n{};
     for (std::size_t i = 0; i < n.size(); ++i)
-        if (n[i] = static_cast<int>(number(text, "crop", (*found)[i])); std::abs(n[i]) > most_edge)
-            fail(text, "crop", fmt::format("'crop' has a number above {}", most_edge));
+        n[i] = pixels(text, "crop", (*found)[i]);
     const CropWindow crop{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
     if (!crop.is_valid())
         fail(text, "crop", "the crop window does not lie within its film");
@@ -210,6 +217,19 @@ Camera parse_camera(const std::string& json_text, const std::string& name) {
 
 Camera read_camera(const std::filesystem::path& file) {
     return parse_camera(read_text(file), file.string());
+}
+
+std::vector<Camera> read_camera_path(const std::filesystem::path& file) {
+    const std::string content = read_text(file), name = file.string();
+    const JsonText text(content, name);
+    const json list = text.parse();
+    if (!list.is_array() || list.empty())
+        text.fail_at(0, fmt::format("a camera path holds a list [...] of cameras, not {}",
+                                    list.is_array() ? "an empty one" : list.type_name()));
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        cameras.push_back(parse_camera(text.only(std::to_string(i)), name));
+    return cameras;
 }
 
 std::string camera_json(const Camera& camera) {

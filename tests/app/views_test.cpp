@@ -122,6 +122,40 @@ TEST_F(Views, ACropWindowOfTheFileScalesWithItsFilm) {
     EXPECT_EQ(size_of("c.exr"), glm::ivec2(24, 16));
 }
 
+/// The window of a camera file sets the size of the picture, unless --crop replaces it.
+TEST_F(Views, TheCropWindowOfACameraFileIsUsed) {
+    folder_.write("s.xml", two_sensors());
+    const std::string camera = "{\"to_world\": [-1,0,0,0, 0,1,0,0, 0,0,-1,4, 0,0,0,1], \"orthographic\": true, "
+                               "\"crop\": [24, 16, 6, 4, 12, 10]}";
+    folder_.write("c.json", camera);
+    folder_.write("path.json", "[" + camera + "]");
+    for (const auto& [option, file] : {std::pair("--camera c.json -o a.exr ", "a.exr"),
+                                       std::pair("--cameras path.json -o a-##.exr ", "a-00.exr")}) {
+        const std::string command = std::string("s.xml ") + option + render_pt;
+        ASSERT_EQ(render(command).exit_code, 0);
+        EXPECT_EQ(size_of(file), glm::ivec2(12, 10)) << option;
+        ASSERT_EQ(render(command + "--size 48x32").exit_code, 0);
+        EXPECT_EQ(size_of(file), glm::ivec2(24, 20)) << option;
+        ASSERT_EQ(render(command + "--crop 0,0,5x7").exit_code, 0);
+        EXPECT_EQ(size_of(file), glm::ivec2(5, 7)) << option;
+        ASSERT_EQ(render(command + "--crop none").exit_code, 0);
+        EXPECT_EQ(size_of(file), glm::ivec2(24, 16)) << option;
+    }
+}
+
+TEST_F(Views, AReferenceWithAnotherFilterOfTheSceneIsRejected) {
+    const std::string bench = "bench s.xml -m pt --spp 2 --seeds 1 --size 24x16 --filter scene --reference refs "
+                              "--reference-spp 4 --threads 1 -o ";
+    folder_.write("s.xml", two_sensors("<rfilter type='gaussian'/>"));
+    const Outcome first = run(folder_.path(), bench + "out1");
+    ASSERT_EQ(first.exit_code, 0) << first.output;
+    ASSERT_EQ(run(folder_.path(), bench + "out2").exit_code, 0) << "the same scene again";
+    folder_.write("s.xml", two_sensors("<rfilter type='tent'/>"));
+    const Outcome changed = run(folder_.path(), bench + "out3");
+    EXPECT_EQ(changed.exit_code, 2);
+    EXPECT_THAT(changed.output, HasSubstr("different reconstruction filter"));
+}
+
 TEST_F(Views, PixelFormatsHaveTheirChannels) {
     folder_.write("s.xml", two_sensors("<string name='pixel_format' value='rgba'/>",
                                        "<boolean name='hide_emitters' value='true'/>"));

@@ -216,7 +216,8 @@ TEST(CameraFile, KeepsCropWindowAndFilter) {
     EXPECT_TRUE(parse_camera(camera_json(camera), "c.json") == camera);
     EXPECT_EQ(camera_json(Camera{}).find("crop"), std::string::npos);
     const std::string start = "{\"fov\": 40, \"to_world\": [" + std::string(matrix) + "],\n";
-    for (const char* bad : {"\"crop\": [96, 64, 60, 10, 40, 36]}", "\"crop\": [96, 64]}", "\"crop\": 1}",
+    for (const char* bad : {"\"crop\": [96, 64, 60, 10, 40, 36]}", "\"crop\": [96, 64, 0, 0, 40.5, 36]}",
+                            "\"crop\": [1e30, 64, 0, 0, 40, 36]}", "\"crop\": [96, 64]}", "\"crop\": 1}",
                             "\"filter\": [\"gaussian\", 2, -1, 0]}", "\"filter\": [\"scene\", 1, 0, 0]}"})
         EXPECT_THROW(parse_camera(start + bad, "c.json"), LoadError) << bad;
 }

@@ -2,10 +2,10 @@
 #include "render/io/text.h"
 #include "render/load/mitsuba_xml.h"
 
-#include <glm/vec2.hpp>
 #include <stdexcept>
 #include <string>
 
+#include <glm/vec2.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,8 +84,9 @@ TEST(Sensors, ACropWindowOutsideItsFilmIsAnError) {
     EXPECT_THAT(
         error_of(with_film(crop(60, 10, 40, 36))),
         testing::HasSubstr("the crop window, 40x36 pixels at (60, 10), does not lie within the film of 96x64"));
-    for (const std::string& bad : {crop(-1, 0, 10, 10), crop(0, 0, 0, 10), crop(0, 60, 10, 5),
-                                   std::string("<integer name='crop_offset_x' value='1'/>")})
+    for (const std::string& bad :
+         {crop(-1, 0, 10, 10), crop(0, 0, 0, 10), crop(0, 60, 10, 5), crop(2147483647, 0, 1, 1),
+          std::string("<integer name='crop_offset_x' value='1'/>")})
         EXPECT_NE(error_of(with_film(bad)), "") << bad;
 }
 

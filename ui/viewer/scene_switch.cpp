@@ -5,9 +5,22 @@
 #include "ui/state/words.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace tessera {
+
+namespace {
+
+/// Returns the camera of the sensor that the user chose, or the scene's own without a choice.
+const Camera& chosen_camera(const Scene& scene, std::optional<std::size_t> sensor) {
+    const std::vector<Sensor>& sensors = scene.description().sensors;
+    return sensor && *sensor < sensors.size() ? sensors[*sensor].camera : scene.camera();
+}
+
+} // namespace
 
 void SceneSwitch::load(SceneOrigin origin) {
     requested_ = std::move(origin);
@@ -74,8 +87,9 @@ void SceneSwitch::show(ViewerState& state, std::shared_ptr<const Scene> scene, c
     ++state.scene_info.shown;
     if (!is_reload || state.scene_info.sensor >= state.scene->description().sensors.size())
         state.scene_info.sensor = {};
-    if (!is_reload || !(previous->camera() == state.scene->camera())) {
-        state.camera.set_home(state.scene->camera(), state.scene->center(), state.scene->radius());
+    const Camera& home = chosen_camera(*state.scene, state.scene_info.sensor);
+    if (!is_reload || !(chosen_camera(*previous, state.scene_info.sensor) == home)) {
+        state.camera.set_home(home, state.scene->center(), state.scene->radius());
         state.set_view({});
     }
     if (!is_reload) {
