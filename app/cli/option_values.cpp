@@ -198,8 +198,7 @@ void add_view_options(CLI::App& command, ViewArguments words) {
     forbid_empty(command.add_option(
         "--crop", words.crop,
         "X,Y,WIDTHxHEIGHT: renders this window of the film, with the random numbers of the whole film (pixels); "
-        "or "
-        "none: the whole film (default: the sensor's crop window). --size is then the size of the film"));
+        "or none: the whole film (default: the sensor's crop window). --size is then the size of the film"));
 }
 
 CLI::Option* add_pixel_format(CLI::App& command, std::optional<PixelFormat>& format) {

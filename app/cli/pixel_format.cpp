@@ -2,25 +2,18 @@
 
 #include "app/cli/picture_layers.h"
 #include "app/cli/terminal.h"
+#include "render/io/exr_color.h"
 #include "render/io/plain_images.h"
 
 #include <array>
 #include <utility>
 
 #include <fmt/core.h>
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 namespace tessera {
 
 namespace {
-
-/// Converts linear sRGB to CIE 1931 XYZ [IEC 61966-2-1].
-glm::vec3 xyz_of_rgb(Rgb c) {
-    const glm::mat3 columns(0.412391f, 0.212639f, 0.019331f, 0.357584f, 0.715169f, 0.119195f, 0.180481f, 0.072192f,
-                            0.950532f);
-    return columns * c;
-}
 
 template <class Value>
 ExrLayer numbers(const char* name, const RgbImage& image, Value value) {
@@ -38,10 +31,11 @@ void convert_first(ExrFile& file, PixelFormat format) {
         file.layers.insert(file.layers.begin(), numbers("Y", image, [](Rgb c) { return luminance(c); }));
         return;
     }
+    const glm::mat3 to_xyz(xyz_of_primaries(Chromaticities()));
     constexpr std::array names{"Z", "Y", "X"};
     for (int i = 0; i < 3; ++i)
         file.layers.insert(file.layers.begin(), numbers(names[static_cast<std::size_t>(i)], image,
-                                                        [i](Rgb c) { return xyz_of_rgb(c)[2 - i]; }));
+                                                        [&](Rgb c) { return (to_xyz * c)[2 - i]; }));
 }
 
 bool is_rgb(PixelFormat format) {

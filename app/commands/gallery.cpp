@@ -110,7 +110,8 @@ void add_errors(GalleryEntry& entry, const std::vector<Finding>& findings, const
         if (finding.setup != judged_setup)
             continue;
         if (entry.verdict.empty() || !finding.is_ok)
-            entry.verdict = fmt::format("G-PR {} {}", finding.verdict, finding.factor);
+            entry.verdict =
+                fmt::format("G-PR {}{}{}", finding.verdict, finding.factor.empty() ? "" : " ", finding.factor);
         entry.is_worse = entry.is_worse || !finding.is_ok;
     }
 }

@@ -1,7 +1,7 @@
 #include "app/compare/error_maps.h"
 
 #include "app/cli/terminal.h"
-#include "recon/metrics/metrics.h"
+#include "recon/metrics/error_map.h"
 #include "recon/metrics/seen_error.h"
 #include "recon/metrics/valid_pixels.h"
 #include "render/io/exr.h"
@@ -27,21 +27,27 @@ constexpr std::pair<const char*, MapKind> kinds[] = {{"squared", MapKind::square
                                                      {"flip", MapKind::flip},
                                                      {"difference", MapKind::difference}};
 
-/// Returns the errors of valid pixels; `image` and `reference` are finite.
-RgbImage map_of(MapKind kind, const RgbImage& image, const RgbImage& reference) {
-    if (kind == MapKind::flip)
-        return grey(flip(image, reference));
+/// Returns I - r of each channel.
+RgbImage difference_of(const RgbImage& image, const RgbImage& reference) {
     RgbImage map(image.width(), image.height());
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        const glm::dvec3 truth = reference.data()[i], error = glm::dvec3(image.data()[i]) - truth;
-        glm::dvec3 value = error;
-        if (kind == MapKind::squared)
-            value = error * error;
-        if (kind == MapKind::relative)
-            value = error * error / (truth * truth + relative_mse_epsilon);
-        map.data()[i] = kind == MapKind::difference ? Rgb(value) : Rgb((value.x + value.y + value.z) / 3);
-    }
+    for (std::size_t i = 0; i < map.size(); ++i)
+        map.data()[i] = image.data()[i] - reference.data()[i];
     return map;
+}
+
+/// Returns the errors of finite images.
+RgbImage map_of(MapKind kind, const RgbImage& image, const RgbImage& reference) {
+    switch (kind) {
+    case MapKind::squared:
+        return error_map(ErrorKind::squared, image, reference);
+    case MapKind::relative:
+        return error_map(ErrorKind::relative_squared, image, reference);
+    case MapKind::flip:
+        return grey(flip(image, reference));
+    case MapKind::difference:
+        break;
+    }
+    return difference_of(image, reference);
 }
 
 glm::vec3 false_colour(float value) {

@@ -172,8 +172,7 @@ void draw_space_view(glm::vec2 size, const SpaceSubject& subject, SpaceView& vie
         "space",
         "The base path (white), its shifts (colours of their outcomes), normals (blue), "
         "emitters (yellow), footprints (violet), and the scene as points. Drag to rotate, with Shift to move; "
-        "scroll to zoom; "
-        "double-click to show all.");
+        "scroll to zoom; double-click to show all.");
     if (view.fits)
         if (const std::vector<glm::vec3> extent = extent_of(subject, view); !extent.empty())
             fit(extent, frame.rect.size(), subject, view);

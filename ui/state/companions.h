@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recon/image.h"
+#include "recon/metrics/error_map.h"
 #include "recon/picture/reconstruct.h"
 #include "render/film/counters.h"
 #include "render/scene/scene_checksums.h"
@@ -41,22 +42,9 @@ struct Companions {
     std::shared_ptr<const int> component{};
 };
 
-/// Error of a pixel of image I relative to reference r; mean of the three channels.
-enum class ErrorKind {
-    relative_squared, ///< (I - r)^2 / (r^2 + relative_mse_epsilon): its mean over the pixels is relMSE
-    squared,          ///< (I - r)^2
-    absolute,         ///< |I - r|
-    relative,         ///< |I - r| / (|r| + mape_epsilon)
-};
-
-float pixel_error(ErrorKind kind, const Rgb& value, const Rgb& reference);
-
 inline bool same_size(const RgbImage& a, const RgbImage& b) {
     return a.width() == b.width() && a.height() == b.height();
 }
-
-/// Returns the errors of all pixels. Both images must have the same size.
-RgbImage error_map(ErrorKind kind, const RgbImage& image, const RgbImage& reference);
 
 /// Histogram of an image's luminances on a logarithmic scale.
 struct Histogram {
