@@ -63,7 +63,7 @@ std::shared_ptr<const Scene> build(SceneDescription description, const std::stri
 }
 
 /// Chooses the scene's sensor and crop window.
-/// @param camera  replaces the sensor's; its film parts only if it has any
+/// @param camera  replaces the sensor's (with_film_of()); empty: the sensor's
 void choose_view(SceneDescription& scene, const SceneSource& source, std::optional<Camera> camera,
                  std::vector<LoadNote>& notes) {
     try {

@@ -36,7 +36,7 @@ struct OpenedScene {
 /// Throws BadInput that names the file if it does not exist.
 void check_scene_file(const std::filesystem::path& file);
 
-/// Returns the camera with crop window and filter of a scene's sensor, as far as it has none.
+/// Returns the camera. If it has no crop window or no filter of its own, it gets that of the scene's sensor.
 Camera with_film_of(Camera camera, const Camera& sensor);
 
 /// Loads and builds a scene. Throws LoadError or another std::exception whose what() is fit for the user.

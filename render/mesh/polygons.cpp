@@ -118,7 +118,7 @@ std::vector<glm::dvec2> project(const Mesh& mesh, const std::vector<std::uint32_
     return points;
 }
 
-/// Returns false if the polygon stays a fan though it is none.
+/// Cuts a polygon that is no fan. Returns false if its triangles overlap, because edges cross or are too many.
 bool cut(Mesh& mesh, const PolygonFan& polygon) {
     glm::uvec3* const triangles = mesh.triangles.data() + polygon.first_triangle;
     const std::size_t count = polygon.corners - 2;
